@@ -6,7 +6,7 @@
 
 namespace pleinair::tests {
 
-/// What a person would be told; "no error" where all went well.
+/// The message for the user; "no error" on success.
 template <typename T>
 std::string MessageOf(const Result<T>& result) {
   return result ? "no error" : result.error().Message();

@@ -6,7 +6,7 @@ namespace pleinair::tests {
 
 constexpr int kSmallWidth = 160, kSmallHeight = 120;
 
-/// Of a session with a camera of few pixels, near a marker and without objects.
+/// Options of a session with a small camera, near a marker and without objects.
 inline app::LiveOptions SmallCameraOptions() {
   app::LiveOptions options;
   options.camera.width = kSmallWidth;

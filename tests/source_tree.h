@@ -4,8 +4,8 @@
 
 namespace pleinair::tests {
 
-/// The source tree that the tests were built from. No macro of its path: every file that is
-/// compiled with one differs from checkout to checkout, and ccache finds none of them again.
+/// The source tree of the tests. The path is not a macro: a file compiled with such a macro differs
+/// between checkouts, so ccache would never find it.
 std::filesystem::path SourceTree();
 
 }  // namespace pleinair::tests

@@ -16,7 +16,7 @@
 
 namespace pleinair::tests {
 
-/// A folder of its own for one test, gone afterwards.
+/// A temporary folder for one test, removed afterwards.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -35,7 +35,7 @@ class TemporaryFolder {
   const std::filesystem::path& path() const { return path_; }
   std::filesystem::path operator/(const std::filesystem::path& name) const { return path_ / name; }
 
-  /// Writes a file, with the folders it lies in.
+  /// Writes a file and creates its folders.
   std::filesystem::path Write(const std::filesystem::path& name, std::string_view content) const {
     std::filesystem::create_directories((path_ / name).parent_path());
     std::ofstream(path_ / name, std::ios::binary)
@@ -58,7 +58,7 @@ inline std::string Content(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// The recording that comes with the source.
+/// The bundled recording.
 inline std::filesystem::path Courtyard() {
   return tests::SourceTree() / "recordings" / "courtyard_midday";
 }
@@ -69,7 +69,7 @@ std::string MessageOf(const Result<T>& result) {
   return result ? "no error" : result.error().Message();
 }
 
-/// `text` with the first `from` replaced; fails the test where there is none.
+/// `text` with the first occurrence of `from` replaced; fails the test if there is none.
 inline std::string Replaced(std::string text, std::string_view from, std::string_view to) {
   const std::size_t at = text.find(from);
   if (at == std::string::npos) {

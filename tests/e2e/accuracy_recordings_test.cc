@@ -1,4 +1,4 @@
-// `pleinair accuracy` on recordings: forms of ground truth, peers, composed pictures.
+// Tests `pleinair accuracy` on recordings: formats of ground truth, peers, composed images.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -19,12 +19,12 @@ using nlohmann::json;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-struct Elsewhere;  // Where a motion capture system has its origin.
-struct Body;       // What it follows.
+struct Elsewhere;  // Frame of a motion capture system.
+struct Body;       // The body that it tracks.
 
 constexpr int kFrames = 8;
 
-/// "x y z qx qy qz qw" or, with the quaternion's w first, "x,y,z,w,x,y,z".
+/// "x y z qx qy qz qw" or, with w first, "x,y,z,w,x,y,z".
 template <typename To, typename From>
 std::string PoseText(const Transform<To, From>& pose, bool w_first) {
   const Vec3 t = pose.translation_m;
@@ -35,7 +35,7 @@ std::string PoseText(const Transform<To, From>& pose, bool w_first) {
                                t.z, q.x, q.y, q.z, q.w);
 }
 
-/// The film of the report of a run over one recording.
+/// The recording's entry in the report of a run over one recording.
 json FilmOf(const fs::path& recording, const fs::path& out) {
   const RunResult run = RunPleinair({"accuracy", recording, "--no-light", "-o", out});
   EXPECT_EQ(run.exit_code, 0) << run.err;
@@ -44,8 +44,8 @@ json FilmOf(const fs::path& recording, const fs::path& out) {
   return report["films"][0];
 }
 
-// The same frames with the same truth in four forms: in the marker's frame, and in a frame of its
-// own as the TUM RGB-D benchmark and the EuRoC data sets have it. The aligned error is the same.
+// The same frames with the same ground truth in four forms: in the marker's frame, and in other
+// frames as in the TUM RGB-D benchmark and the EuRoC data sets. The aligned error is the same.
 TEST(AccuracyOfRecordings, IsTheSameWhateverTheFormOfTheTruth) {
   const TemporaryFolder folder;
   const Transform<Elsewhere, Marker> elsewhere_from_marker{RotationOf({0.1, -0.7, 0.3, 0.6}),
@@ -61,7 +61,7 @@ TEST(AccuracyOfRecordings, IsTheSameWhateverTheFormOfTheTruth) {
     const auto& pose = truth[i].marker_from_camera;
     const std::int64_t stamp_ns = 1'403'636'579'763'555'584 + i * 66'666'667LL;
     in_marker += fmt::format("{:.6f} {}\n", i / 15.0, PoseText(pose, false));
-    // Since 1970, as that benchmark has it.
+    // Seconds since 1970, as in that benchmark.
     elsewhere += fmt::format("{:.6f} {}\n", 1757847900.0 + i / 15.0,
                              PoseText(elsewhere_from_marker * pose, false));
     euroc += fmt::format("{},{},0,0,0\n", stamp_ns,
@@ -73,7 +73,7 @@ TEST(AccuracyOfRecordings, IsTheSameWhateverTheFormOfTheTruth) {
   }
   WriteFile(mav / "cam0/data.csv", frames);
   WriteFile(mav / "state_groundtruth_estimate0/data.csv", euroc);
-  // Body from camera of the quaternion (0.5, -0.5, 0.5, 0.5).
+  // The quaternion (0.5, -0.5, 0.5, 0.5) rotates camera to body.
   WriteFile(mav / "cam0/sensor.yaml", R"(sensor_type: camera
 T_BS:
   rows: 4
@@ -127,8 +127,8 @@ TEST(AccuracyOfRecordings, RunsPeersWhereTheyCanReadThePrintAndSaysWhereNot) {
     ++compared;
     EXPECT_EQ(pair["markers"], 6);
     EXPECT_EQ(pair["both"], 6);
-    // Measured: 0.03 of the library's own corners, 0.03 of ArUco's; a corner order that is turned,
-    // or pixels off by half, would not be hits or be a fifth.
+    // Measured: 0.03 for the library's own corners, 0.03 for ArUco's. A wrong corner order gives no
+    // hits; a half-pixel shift gives a fifth.
     EXPECT_LT(pair["corner_px"]["interval"][1], 0.2);
   }
   EXPECT_EQ(compared, 2);
@@ -145,7 +145,7 @@ TEST(AccuracyOfRecordings, HasWhatCompareGivesOfTheLightHoweverItIsDivided) {
   WriteFile(site / "truth.tum", "0 " + PoseText(truth[36].marker_from_camera, false) + "\n");
   WriteFile(site / "scene.json", R"({"key_frames": [{"frame": 0, "truth": "key/0036_truth.png",
     "object_mask": "key/0036_objmask.png", "shadow": "key/0036_shadow.png"}]})");
-  // Its two parts, frames and pictures, by two shards in folders of their own.
+  // Its two parts, frames and images, by two shards into separate folders.
   for (const char* shard : {"1", "2"}) {
     const RunResult run =
         RunPleinair({"accuracy", site, "-o", folder / shard, "--shard", std::string(shard) + "/2"});
@@ -165,7 +165,7 @@ TEST(AccuracyOfRecordings, HasWhatCompareGivesOfTheLightHoweverItIsDivided) {
   }
   EXPECT_LT(scores["dE_obj"], 2.0);
   EXPECT_THAT(ReadFile(folder / "merged/report.html"), HasSubstr("<h2>Light</h2>"));
-  // The whole, gone on from the first shard's folder with the other's part.
+  // The complete run, resumed in the first shard's folder with the other's part.
   fs::copy_file(folder / "2/parts/00001.jsonl", folder / "1/parts/00001.jsonl");
   const RunResult whole = RunPleinair({"accuracy", site, "-o", folder / "1", "--json"});
   ASSERT_EQ(whole.exit_code, 0) << whole.err;

@@ -1,4 +1,4 @@
-// `pleinair accuracy` and `pleinair report` from outside.
+// Tests `pleinair accuracy` and `pleinair report` as processes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -33,7 +33,7 @@ TEST(Accuracy, IsTheSameHoweverItIsDivided) {
   for (const int count : {2, 7}) {
     const fs::path shards = folder / std::to_string(count);
     for (int i = 1; i <= count; ++i) {
-      // Every second shard into a folder of its own.
+      // Every second shard writes to a separate folder.
       const std::string to = (i % 2 == 0 ? shards / "even" : shards / "odd").string();
       const std::string shard = std::to_string(i) + "/" + std::to_string(count);
       const RunResult run = RunPleinair(Small({"-o", to, "--shard", shard}));
@@ -46,7 +46,7 @@ TEST(Accuracy, IsTheSameHoweverItIsDivided) {
       EXPECT_EQ(ReadFile(shards / "all" / file), ReadFile(folder / "whole" / file))
           << count << " " << file;
     }
-    // Half of it is no report.
+    // Half of the parts give no report.
     const RunResult half = RunPleinair({"report", "merge", shards / "odd", "-o", shards / "half"});
     EXPECT_EQ(half.exit_code, 1);
     EXPECT_THAT(half.err, HasSubstr("parts are not there"));
@@ -65,7 +65,7 @@ TEST(Accuracy, GoesOnWhereItStoppedAndRefusesAnotherRunsFolder) {
   ASSERT_EQ(first.exit_code, 0) << first.err;
   const std::string report = ReadFile(folder / "out/report.json");
   const std::string part = ReadFile(folder / "out/parts/00001.jsonl");
-  // A part that was cut, as no part is that this program wrote, counts as not there.
+  // A truncated part, which this program never writes, counts as missing.
   WriteFile(folder / "out/parts/00001.jsonl", part.substr(0, part.size() / 2));
   const RunResult second = RunPleinair(command);
   ASSERT_EQ(second.exit_code, 0) << second.err;
@@ -81,7 +81,7 @@ TEST(Accuracy, RefusesDamagedRunsByTheirFile) {
   ASSERT_EQ(RunPleinair({"accuracy", "--sweep", "wild", "--scale", "0.01", "-o", folder / "run"})
                 .exit_code,
             0);
-  // So deep that a function that calls itself for each level runs out of stack.
+  // Nested so deeply that a recursive function would exhaust the stack.
   constexpr std::size_t kLevels = 100'000;
   const std::string deep = std::string(kLevels, '[') + std::string(kLevels, ']');
   struct Damage {
@@ -124,8 +124,9 @@ TEST(Accuracy, RefusesDamagedRunsByTheirFile) {
   }
 }
 
-// The gate: what this program does now against what it did when the baseline was recorded
-// (docs/guide/accuracy-runs.md says how to record it anew). And a gate that would notice.
+// The regression gate: compares this program's results with the recorded baseline
+// (docs/guide/accuracy-runs.md describes how to record it). Also tests that the gate detects a
+// regression.
 TEST(Accuracy, IsNoWorseThanTheBaselineAndASpoiledDetectorIs) {
   const TemporaryFolder folder;
   const std::string baseline = tests::SourceTree() / "tests/accuracy/baseline";
@@ -167,7 +168,7 @@ TEST(Accuracy, GoesOnBehindARecordingThatIsCorrupt) {
   const RunResult merged = RunPleinair({"report", "merge", folder / "out"});
   EXPECT_EQ(merged.exit_code, 1);
   EXPECT_THAT(merged.err, HasSubstr("0001.jpg"));
-  // Mended, it is measured; the other is not measured again.
+  // After repair it is measured; the other is not measured again.
   WriteFile(folder / "bad/frames/0001.jpg", picture);
   const RunResult again = RunPleinair(command);
   EXPECT_EQ(again.exit_code, 0) << again.err;

@@ -25,7 +25,7 @@ void Replace(const fs::path& file, const std::string& from, const std::string& t
   WriteFile(file, text.replace(at, from.size(), to));
 }
 
-/// A fault put into a good recording, and what the one line of error must name.
+/// A fault in a good recording, and what the one-line error must name.
 struct Fault {
   const char* name;
   std::function<void(const fs::path& site)> plant;
@@ -82,7 +82,7 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"UnknownMarkerFamily",
               [](const fs::path& site) {
                 Replace(site / "scene.toml", "\"sg\"", "\"tag99h9\"");
-                fs::remove(site / "object.obj");  // The marker is looked at first.
+                fs::remove(site / "object.obj");  // The marker is searched for first.
                 WriteFile(site / "object.obj", "no model");
               },
               "scene.toml: unknown marker family \"tag99h9\"; known are sg, tag36h11, "},
@@ -116,7 +116,7 @@ INSTANTIATE_TEST_SUITE_P(
               "object.obj"},
         Fault{"HugeTexture",
               [](const fs::path& site) {
-                // A PNG header that promises 100000 x 100000 pixels.
+                // A PNG header of size 100000 x 100000 pixels.
                 std::string png(
                     "\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\x01\x86\xa0\0\x01\x86\xa0\x08\x02"
                     "\0\0\0\x92\x35\x7f\x0b",
@@ -217,7 +217,7 @@ TEST(BadInput, AnotherRecordingIsNotOverwrittenEither) {
 TEST(BadInput, AFolderWithoutWritePermissionIsRefused) {
   const TemporaryFolder folder;
   MakeShortRecording(folder / "site", 1, false);
-  // /proc refuses new folders to everybody, also to root.
+  // /proc rejects new folders from every user, including root.
   const RunResult run = RunPleinair({"replay", folder / "site", "-o", "/proc/pleinair"});
   ExpectRefused(run, "cannot write");
 }
@@ -232,8 +232,8 @@ TEST(BadInput, AFileInPlaceOfTheOutputFolderIsRefused) {
 TEST(BadInput, AFileSizeLimitEndsTheReplayAndLeavesNothing) {
   const TemporaryFolder folder;
   MakeShortRecording(folder / "site", 2, false);
-  for (const char* output : {"--frames", "--json"}) {  // Pictures first, or the video.
-    // 32 blocks of 512 or 1024 bytes: below a frame's PNG and the video.
+  for (const char* output : {"--frames", "--json"}) {  // Images first, or the video.
+    // 32 blocks of 512 or 1024 bytes: less than a frame's PNG and the video.
     const RunResult run =
         RunPleinair({"replay", folder / "site", "-o", folder / "out", output}, "ulimit -f 32;");
     ExpectRefused(run, "File too large", 1);
@@ -245,7 +245,7 @@ TEST(BadInput, AReplayInterruptedSeveralTimesLeavesNothing) {
   const TemporaryFolder folder;
   MakeShortRecording(folder / "site", 5, false);
   const std::string out = folder / "out";
-  // Once it has begun to write (or, should it never, after a while).
+  // After it has begun to write, or after a timeout.
   const RunResult run = RunCommandLine(
       {"sh", "-c",
        PleinairProgram() + " replay '" + std::string(folder / "site") + "' -o '" + out +
@@ -274,7 +274,7 @@ TEST(BadInput, AFullDiskEndsTheReplayAndLeavesNothing) {
                     PleinairProgram(), std::string(folder / "site"), disk, option, disk));
     ExpectRefused(run, "No space left on device", 1);
     EXPECT_THAT(run.err, HasSubstr(disk + "/out/"));
-    EXPECT_THAT(run.out, IsEmpty());  // Nothing left on the disk.
+    EXPECT_THAT(run.out, IsEmpty());  // Nothing remains on the disk.
   }
 }
 

@@ -1,4 +1,4 @@
-// `pleinair bench shadows` from outside.
+// Tests `pleinair bench shadows` as a process.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -50,8 +50,8 @@ TEST(BenchShadows, MeasuresAllMethodsAndOursIsTheBest) {
   }
 }
 
-// The paper's order of quality (its Figure 8), as far as it holds in this scene: PCF 5×5 has a
-// whole picture's error above the plain map's (docs/measurements/shadows.md).
+// The paper's order of quality (its Figure 8), where it holds in this scene. PCF 5×5 has a larger
+// error over the whole image than the plain map (docs/measurements/shadows.md).
 TEST(BenchShadows, WithAsManyTexelsEachHasZGafBeforeCascadesBeforeThePlainMap) {
   const RunResult run = RunPleinair({"bench", "shadows", "--quick", "--scenes", "pole_and_box",
                                      "--methods", "plain,pcf5,csm-pcf5,csm-gauss,zgaf",
@@ -83,7 +83,7 @@ TEST(BenchShadows, RefusesWhatItDoesNotKnow) {
   ExpectRefused(RunPleinair({"bench", "shadows", "--quick", "--rays", "256"}), "--rays");
   ExpectRefused(RunPleinair({"bench", "shadows", "--quick", "--shader-dir", "/no/such/shaders"}),
                 "/no/such/shaders");
-  // At once, not after what can be measured: the first size and the first methods could be.
+  // Rejected immediately, although the first size and the first methods are valid.
   ExpectRefused(RunPleinair({"bench", "shadows", "--sizes", "512,768"}),
                 "--sizes: 'ours' cannot have maps of 768 texels");
   ExpectRefused(RunPleinair({"bench", "shadows", "--quick", "--scenes", "courtyard", "--recording",

@@ -38,7 +38,7 @@ CameraModel TrueCamera() {
   return camera;
 }
 
-/// Pictures 0.png… of the board.
+/// Images 0.png… of the board.
 std::vector<cv::Mat> WriteViews(const fs::path& folder, std::size_t count) {
   fs::create_directories(folder);
   const auto poses = tracker::BoardPoses(TrueCamera(), 0.24, 40.0);
@@ -103,7 +103,7 @@ TEST(Calibrate, WritesEveryFormAndAPageFromPicturesAndFromAFilm) {
   const cv::Mat coverage = cv::imread((folder / "coverage.png").string());
   EXPECT_EQ(coverage.size(), cv::Size(1200, 900));
 
-  // A film that rests at each view for three frames: each is picked once.
+  // A video that shows each view for three frames: each view is used once.
   cv::VideoWriter film((folder / "film.avi").string(), cv::VideoWriter::fourcc('M', 'J', 'P', 'G'),
                        10.0, pictures[0].size(), false);
   ASSERT_TRUE(film.isOpened());
@@ -121,7 +121,8 @@ TEST(Calibrate, WritesEveryFormAndAPageFromPicturesAndFromAFilm) {
   EXPECT_NEAR(of_film["fx"].get<double>() / TrueCamera().fx, 1.0, 0.003);
 }
 
-/// A sheet as `pleinair board` made it, 12 px/mm, in linear light at half of that.
+/// A sheet written by `pleinair board`, rendered at 12 px/mm, in linear light at half that
+/// resolution.
 cv::Mat ReadSheet(const fs::path& file) {
   cv::Mat sheet = cv::imread(file.string(), cv::IMREAD_GRAYSCALE);
   EXPECT_FALSE(sheet.empty());
@@ -132,8 +133,8 @@ cv::Mat ReadSheet(const fs::path& file) {
   return linear;
 }
 
-/// Photographs sheets through one lens: 3 × 3 samples a pixel and half a
-/// pixel of blur, in linear light.
+/// Photographs sheets through one lens: 3 × 3 samples per pixel and half a pixel of blur, in linear
+/// light.
 class SheetCamera {
  public:
   explicit SheetCamera(const CameraModel& camera) : size_(camera.width, camera.height) {
@@ -146,7 +147,7 @@ class SheetCamera {
     }
   }
 
-  /// `middle_mm`: of the board, on its page.
+  /// `middle_mm`: centre of the board on its page.
   cv::Mat Take(const cv::Mat& sheet, Vec2 middle_mm,
                const Transform<Camera, Marker>& camera_from_board) const {
     constexpr float kPixelsPerMm = 6.0F;
@@ -179,7 +180,7 @@ class SheetCamera {
 TEST(Calibrate, FindsTheLensFromPicturesOfTheBoardsThatBoardPrints) {
   struct Case {
     std::vector<std::string> board;
-    double width_mm, height_mm;  // Of the squares.
+    double width_mm, height_mm;  // Extent of the squares.
     std::string words;
   };
   const Case cases[] = {
@@ -188,7 +189,7 @@ TEST(Calibrate, FindsTheLensFromPicturesOfTheBoardsThatBoardPrints) {
        160,
        120,
        "ChArUco board of 8x6 squares (5x5_100)"}};
-  // Chessboards are found whole or not at all: their squares must not be too small.
+  // Chessboards are found completely or not at all: their squares must not be too small.
   CameraModel camera = TrueCamera();
   camera.width = 640;
   camera.height = 480;
@@ -205,7 +206,7 @@ TEST(Calibrate, FindsTheLensFromPicturesOfTheBoardsThatBoardPrints) {
     ASSERT_EQ(printed.exit_code, 0) << printed.err;
     const cv::Mat sheet = ReadSheet(folder / "board.png");
     ASSERT_EQ(sheet.size(), cv::Size(297 * 6, 420 * 6));
-    // 10 mm from the page's upper edge half a square of white begins.
+    // At 10 mm from the page's upper edge half a square of white begins.
     const Vec2 middle_mm{
         std::floor(0.5 * (297.0 - each.width_mm - 20.0)) + 10.0 + 0.5 * each.width_mm,
         20.0 + 0.5 * each.height_mm};

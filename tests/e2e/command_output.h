@@ -8,18 +8,18 @@
 
 namespace pleinair::e2e {
 
-/// `pleinair ARGUMENTS --json`, which must succeed and print one line.
+/// Runs `pleinair ARGUMENTS --json`, which must succeed and print one line.
 nlohmann::json RunJson(std::vector<std::string> arguments);
 
-/// One JSON value a line.
+/// Parses one JSON value per line.
 std::vector<nlohmann::json> JsonLines(const std::string& text);
-/// The same of what a run printed, which must have succeeded.
+/// Parses the output of a run, which must have succeeded.
 std::vector<nlohmann::json> JsonLines(const RunResult& run);
 
-/// What stands between line feeds, and between the commas of a line.
+/// Splits at line feeds, and a line at commas.
 std::vector<std::string> Lines(const std::string& text);
 std::vector<std::string> Fields(const std::string& line);
-/// The fields as numbers, all of which they must be.
+/// The fields as numbers; each must be one.
 std::vector<double> Numbers(const std::string& line);
 
 }  // namespace pleinair::e2e

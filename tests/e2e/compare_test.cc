@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// The untouched background in place of a composite.
+/// The unchanged background in place of a composite.
 void CopyBackgrounds(const fs::path& folder) {
   fs::create_directories(folder);
   for (const char* name : {"0036", "0072"}) {
@@ -28,7 +28,7 @@ void CopyBackgrounds(const fs::path& folder) {
   }
 }
 
-/// The first JPEG with a caption that a page holds.
+/// The first JPEG with a caption in an HTML page.
 cv::Mat PictureIn(const std::string& page, const std::string& caption) {
   const std::string head = "alt=\"" + caption + "\"", data = "data:image/jpeg;base64,";
   const std::size_t at = page.find(data, page.find(head));
@@ -66,7 +66,7 @@ TEST(Compare, ScoresUntouchedBackgroundsAsTheRecordingsOwnScoresDo) {
   const std::string page = ReadFile(folder / "page.html");
   EXPECT_THAT(page, Not(HasSubstr("http")));
   EXPECT_THAT(page, Not(HasSubstr("<video"))) << "no day was drawn";
-  // Black where nothing is wrong, bright where the object is missing.
+  // Black where there is no error, bright where the object is missing.
   const cv::Mat difference = PictureIn(page, "difference");
   ASSERT_FALSE(difference.empty());
   cv::Mat mask = cv::imread(BundledRecording() / "key/0036_objmask.png", cv::IMREAD_GRAYSCALE);

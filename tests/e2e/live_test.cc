@@ -42,7 +42,7 @@ TEST(Live, ARecordingMadeLiveReplaysToTheSameSightings) {
             0);
   const std::string one = ReadFile(folder / "one.jsonl");
   EXPECT_THAT(one, HasSubstr("\"markers\":[{"));
-  // The recording's stamps are those of the moments when the frames came: a hair beside 1/30 s.
+  // The recording's stamps are arrival times: they differ slightly from multiples of 1/30 s.
   const auto without_stamps = [](const std::string& lines) {
     std::string poses;
     for (std::size_t at = 0; at < lines.size();) {
@@ -67,7 +67,7 @@ TEST(Live, ShowsTheShadowMapsPartitionsWhereAsked) {
   };
   const cv::Scalar plain = shown("plain.png", {});
   const cv::Scalar tinted = shown("tinted.png", {"--shadow-debug"});
-  // Red and green, the two partitions' tints, leave less of blue.
+  // The two partitions' tints, red and green, reduce blue.
   EXPECT_LT(tinted[0], 0.8 * plain[0]);
   EXPECT_LT(tinted[0] / plain[0], tinted[1] / plain[1]);
 }
@@ -76,7 +76,7 @@ TEST(Live, TakesTheLightThatTheUserGives) {
   const TemporaryFolder folder;
   MakeShortRecording(folder / "site", 2, /*with_object=*/true);
   for (const char* name : {"site/frames/0000.jpg", "site/frames/0001.jpg"}) {
-    // Out of focus, so that there is a look to match.
+    // Out of focus, so that there is a camera look to match.
     cv::Mat picture = cv::imread(folder / name);
     cv::GaussianBlur(picture, picture, {}, 1.5);
     ASSERT_TRUE(cv::imwrite(folder / name, picture));
@@ -109,7 +109,7 @@ TEST(Live, TakesTheLightThatTheUserGives) {
   }
 }
 
-/// Numbers of a TUM file's lines after the time, by the time.
+/// Numbers of a TUM file's lines after the time, by time.
 std::map<std::string, std::vector<double>> PosesOf(const std::filesystem::path& file) {
   std::map<std::string, std::vector<double>> poses;
   std::ifstream in(file);
@@ -139,8 +139,8 @@ TEST(Live, TheReplayOfARecordingHasThePosesOfTheSessionThatMadeIt) {
   std::vector<std::string> replayed = Listing(folder / "replayed");
   std::erase_if(replayed, [](const std::string& name) { return name.starts_with("report."); });
   EXPECT_EQ(Listing(folder / "live"), replayed);
-  // A machine that is busy enough tracks some frames too late; those have no pose of their own, and
-  // the next is found without its forerunner's help.
+  // On a busy machine some frames are too late and have no pose. The next frame is then found
+  // without a prediction.
   const bool none_late = statistics.at("late_for_tracking") == 0;
   if (none_late) {
     for (const char* file : {"poses/sg_17.tum", "poses/sg_17.csv", "detections.jsonl",
@@ -186,7 +186,7 @@ TEST(Live, AccountsForEveryFrameAndItsMemoryIntervalByInterval) {
   EXPECT_EQ(all.at("captured"), captured);
   EXPECT_EQ(captured, told + all.at("on_the_way_at_end").get<std::int64_t>());
   EXPECT_EQ(all.at("unaccounted"), 0);
-  // A second of such frames that nobody let go would be 74 MB.
+  // A second of frames that are never released would need 74 MB.
   EXPECT_LT(lines.back().at("memory_mb").get<double>(),
             lines[1].at("memory_mb").get<double>() + 20.0);
 }

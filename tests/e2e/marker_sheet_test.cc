@@ -1,4 +1,4 @@
-// `pleinair marker` and `pleinair board` from outside: files as other programs draw them.
+// Tests `pleinair marker` and `pleinair board` as processes, with files rendered by other programs.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ using ::testing::IsEmpty;
 
 constexpr double kPixelsPerMm = 12.0;
 
-/// Poppler's and librsvg's view of a page, 12 px/mm.
+/// A page rendered by Poppler and by librsvg, 12 px/mm.
 cv::Mat DrawPdf(const fs::path& pdf, int page = 1) {
   const fs::path png = pdf.string() + ".page" + std::to_string(page);
   const std::string number = std::to_string(page);
@@ -42,8 +42,8 @@ cv::Mat DrawSvg(const fs::path& svg) {
   return cv::imread(png, cv::IMREAD_GRAYSCALE);
 }
 
-/// Black along a line of pixels, summed, in mm; a renderer's smoothing of edges keeps it to a
-/// fraction of a pixel whatever its gamma.
+/// Length of black along a line of pixels, in mm. Antialiasing limits the error to a fraction of a
+/// pixel for any gamma.
 double BlackAlong(const cv::Mat& line) {
   double black_px = 0.0;
   for (int y = 0; y < line.rows; ++y) {
@@ -70,16 +70,16 @@ TEST_P(PrintedSheet, IsTrueToScaleAndTheSameAsPdfSvgAndPng) {
   EXPECT_NEAR(corner(2, 0) - corner(0, 0), GetParam(), 1e-6);
   const cv::Mat png = cv::imread(folder / "m.png", cv::IMREAD_GRAYSCALE);
   ASSERT_EQ(png.size(), cv::Size(1560, 1500));
-  // The print without half of its white margin.
+  // The marker without half of its white margin.
   const double margin = 0.05 * GetParam();
   const cv::Rect print(
       cv::Point((corner(0, 0) - margin) * kPixelsPerMm, (corner(0, 1) - margin) * kPixelsPerMm),
       cv::Point((corner(2, 0) + margin) * kPixelsPerMm, (corner(2, 1) + margin) * kPixelsPerMm));
   for (const cv::Mat& page : {png, DrawPdf(folder / "m.pdf"), DrawSvg(folder / "m.svg")}) {
-    // Other programs may round half a pixel of the page another way.
+    // Other programs may round half a page pixel differently.
     ASSERT_NEAR(page.cols, png.cols, 1);
     ASSERT_NEAR(page.rows, png.rows, 1);
-    // The rim is black from edge to edge: its length is the marker's size, its middle the place.
+    // The rim is black from edge to edge: its length is the marker's size, its centre the position.
     const int rim_y = static_cast<int>((corner(0, 1) + 0.05 * GetParam()) * kPixelsPerMm);
     const int rim_x = static_cast<int>((corner(0, 0) + 0.05 * GetParam()) * kPixelsPerMm);
     const cv::Range across(print.x, print.x + print.width), down(print.y, print.y + print.height);
@@ -95,8 +95,8 @@ TEST_P(PrintedSheet, IsTrueToScaleAndTheSameAsPdfSvgAndPng) {
     for (int y = 0; y < difference.rows; ++y) {
       for (int x = 0; x < difference.cols; ++x) grossly += difference.at<std::uint8_t>(y, x) > 140;
     }
-    EXPECT_LE(grossly, 4);  // A module's corner may round to another pixel.
-    // Inside the rim nothing but black: three modules deep, away from its edges.
+    EXPECT_LE(grossly, 4);  // A module's corner may be rounded to another pixel.
+    // The rim is black throughout: three modules deep, away from its edges.
     const double module_px = GetParam() / 40 * kPixelsPerMm;
     const cv::Rect rim(cv::Point(corner(0, 0) * kPixelsPerMm + 2, corner(0, 1) * kPixelsPerMm + 2),
                        cv::Size(40 * module_px - 4, 3 * module_px));
@@ -106,7 +106,7 @@ TEST_P(PrintedSheet, IsTrueToScaleAndTheSameAsPdfSvgAndPng) {
   }
 }
 
-// One with modules on whole pixels, one without.
+// One layout with modules on whole pixels, one without.
 INSTANTIATE_TEST_SUITE_P(Sizes, PrintedSheet, ::testing::Values(40.0, 37.3));
 
 TEST(MarkerSheet, HasItsNumberItsSizeAndARulerOfAHundredMillimetres) {
@@ -118,8 +118,8 @@ TEST(MarkerSheet, HasItsNumberItsSizeAndARulerOfAHundredMillimetres) {
   const RunResult info = RunCommandLine({"pdfinfo", folder / "m.pdf"});
   EXPECT_THAT(info.out, AllOf(HasSubstr("(A4)"), HasSubstr("S-G marker 1234")));
   EXPECT_THAT(info.err, IsEmpty());
-  // The longest black line below the print that is thinner than a millimetre and stands alone is
-  // the ruler's or the arrow's; the ruler has 101 ticks above it, two of them 100 mm apart.
+  // The longest isolated black line below the marker thinner than a millimetre belongs to the ruler
+  // or the arrow. The ruler has 101 ticks above it, two of them 100 mm apart.
   const cv::Mat page = DrawPdf(folder / "m.pdf");
   int ruler_rows = 0;
   for (int y = static_cast<int>(185 * kPixelsPerMm); y < page.rows; ++y) {
@@ -202,7 +202,7 @@ TEST(Board, HasSquaresTrueToScaleWhereAChessboardIsAskedFor) {
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_EQ(JsonLines(run.out).at(0)["square_mm"], 15.0);
   const cv::Mat page = DrawPdf(folder / "c.pdf");
-  // Through the middle of the first row: 10 mm of page, half a square of white, half of a square.
+  // Through the centre of the first row: 10 mm of page, half a square of white, half a square.
   EXPECT_NEAR(BlackAlong(page.row(static_cast<int>(25.0 * kPixelsPerMm))), 5 * 15.0, 0.1);
   EXPECT_NEAR(BlackAlong(page.row(static_cast<int>(40.0 * kPixelsPerMm))), 5 * 15.0, 0.1);
 }
@@ -218,7 +218,7 @@ TEST(Board, DoesNotReplaceAFileThatIsNoDescription) {
   EXPECT_EQ(RunPleinair({"board", "-o", folder / "c.pdf"}).exit_code, 0);
 }
 
-// Whoever copies a line from the help gets what it promises.
+// Command lines copied from the help must work.
 TEST(SheetHelp, HasExamplesThatRunAsTheyStand) {
   for (const char* command : {"marker", "board"}) {
     std::istringstream help(RunPleinair({command, "--help"}).out);

@@ -20,7 +20,7 @@ using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
 const std::filesystem::path kTruth = BundledRecording() / "truth.tum";
-// Off the middle, and of pixels that are no squares.
+// Off-centre principal point and non-square pixels.
 constexpr const char* kLens =
     R"({"image_width": 640, "image_height": 480, "model": "opencv-radtan", "fx": 585, "fy": 640,
         "cx": 300.3, "cy": 275.8, "distortion_k1_k2_p1_p2_k3": [0, 0, 0, 0, 0]})";
@@ -36,7 +36,7 @@ TEST(Path, GoesThroughEveryFormAndComesBack) {
   const TemporaryFolder folder;
   WriteFile(folder / "lens.json", kLens);
   const std::vector<std::string> lens = {"--calibration", folder / "lens.json"};
-  // The camera sits turned and shifted on the body.
+  // The camera is rotated and shifted relative to the body.
   WriteFile(folder / "sensor.yaml",
             "T_BS: {data: [0, -1, 0, 0.1, 1, 0, 0, -0.2, 0, 0, 1, 0.3, 0, 0, 0, 1]}\n");
   const std::vector<std::string> mounting = {"--extrinsics", folder / "sensor.yaml"};
@@ -64,13 +64,13 @@ TEST(Path, GoesThroughEveryFormAndComesBack) {
       EXPECT_NEAR(poses[i].time_s, truth[i].time_s, 1e-5) << name;
     }
   }
-  // The body's path is another one.
+  // The body's trajectory differs.
   EXPECT_NE(ReadFile(folder / "body.csv"), ReadFile(folder / "euroc.tum"));
   ASSERT_EQ(Convert(kTruth, folder / "path.mcap", lens).exit_code, 0);
   EXPECT_THAT(ReadFile(folder / "path.mcap"), StartsWith("\x89MCAP0\r\n"));
 }
 
-// As COLMAP's model_converter wrote it; where both forms are there it counts, as with COLMAP.
+// As written by COLMAP's model_converter. If both forms exist the binary one is used, as in COLMAP.
 TEST(Path, ReadsAModelInColmapsBinaryForm) {
   const TemporaryFolder folder;
   const std::filesystem::path example = tests::SourceTree() / "tests/export/trajectories/colmap";
@@ -94,8 +94,9 @@ TEST(Path, ReadsAModelInColmapsBinaryForm) {
   EXPECT_FALSE(std::filesystem::exists(folder / "cut.tum"));
 }
 
-// What tools/blender/pleinair_path.py sets in Blender must show things where the camera saw them.
-// Blender's formula: the window, one sensor wide, lies `lens` before the camera and is shifted.
+// The camera that tools/blender/pleinair_path.py sets in Blender must project points like the real
+// one. Blender's model: the window, one sensor width wide, lies `lens` in front of the camera and
+// is shifted.
 TEST(Path, IsSeenByBlendersCameraPixelByPixel) {
   const TemporaryFolder folder;
   WriteFile(folder / "lens.json", kLens);
@@ -122,7 +123,7 @@ TEST(Path, IsSeenByBlendersCameraPixelByPixel) {
     const Vec3 place{key["location"][0], key["location"][1], key["location"][2]};
     for (const auto& corner : blender["marker"]) {
       const Vec3 p{corner[0], corner[1], corner[2]};
-      // Along Blender's own axes: right, up, backward.
+      // Along Blender's axes: right, up, backward.
       const Vec3 seen = turn.Transposed() * (p - place);
       const double right = seen.x / -seen.z * windows - blender["shift_x"].get<double>();
       const double up = seen.y / -seen.z * windows - blender["shift_y"].get<double>();

@@ -10,7 +10,7 @@
 namespace pleinair::e2e {
 namespace {
 
-// The bundled recording's lens.
+// The lens of the bundled recording.
 constexpr double kFocal_px = 605.0, kCentreX_px = 319.5, kCentreY_px = 239.5;
 constexpr double kBlack = 0.04, kWhite = 0.80;
 constexpr int kSamples = 3;  // Along a pixel's side.
@@ -20,7 +20,7 @@ Vec2 PixelOf(const Transform<Camera, Marker>& camera_from_marker, double x, doub
   return {kFocal_px * p.x / p.z + kCentreX_px, kFocal_px * p.y / p.z + kCentreY_px};
 }
 
-/// Linear light of the board's white margin, for a reflectance of 1; B, G, R.
+/// Linear light of the white margin, for a reflectance of 1; B, G, R.
 std::array<double, 3> LightOnTheMargin(const cv::Mat& frame,
                                        const Transform<Camera, Marker>& camera_from_marker) {
   std::array<double, 3> sum{};
@@ -65,7 +65,7 @@ void PastePoster(const cv::Mat& poster, double width_m,
       linear.at<float>(y, x) = LinearFromSrgb8()[poster.at<uchar>(y, x)];
     }
   }
-  // Far off, a pixel sees more than one of the poster's.
+  // At a distance one image pixel covers several poster pixels.
   cv::GaussianBlur(linear, linear, {}, 1.0);
   for (int y = 0; y < frame->rows; ++y) {
     for (int x = 0; x < frame->cols; ++x) {

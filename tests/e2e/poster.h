@@ -7,12 +7,12 @@
 
 namespace pleinair::e2e {
 
-/// 800×600 grey: rectangles and ellipses of all sizes on one another, after a seed.
+/// 800×600 grey: overlapping rectangles and ellipses of all sizes, determined by a seed.
 cv::Mat Poster(int seed);
 
-/// Pastes a poster over the marker of a frame of the bundled recording: flat on the ground, its
-/// centre at the marker's, as wide as said, in the light that the marker's white board shows, its
-/// tones from black (4 % reflected) to white (80 %).
+/// Pastes a poster over the marker of a frame of the bundled recording. It lies flat on the ground,
+/// centred on the marker, with the given width. It has the light of the marker's white margin, with
+/// tones from black (4 % reflectance) to white (80 %).
 void PastePoster(const cv::Mat& poster, double width_m,
                  const Transform<Camera, Marker>& camera_from_marker, cv::Mat* frame);
 

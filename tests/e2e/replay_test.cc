@@ -70,7 +70,7 @@ TEST(Replay, FindsTheHeadingThatTheSceneStatesWrongly) {
   const auto& light = report["light"]["measured"];
   EXPECT_NEAR(light["heading_offset_deg"], -3.0, 0.3);
   EXPECT_EQ(light["sun_shines"], true);
-  // Its sky's share of the light on level ground is 0.1752.
+  // The sky's share of the light on level ground is 0.1752.
   EXPECT_NEAR(light["sun_to_sky"].get<double>() / (1 / 0.1752 - 1), 1.0, 0.15);
 }
 
@@ -111,7 +111,7 @@ TEST(Replay, RefusesADayFromAFrameThatCannotShowIt) {
   const cv::Mat blank(480, 640, CV_8UC3, cv::Scalar(90, 120, 150));
   cv::imwrite(folder / "site/frames/0001.jpg", blank);
   EXPECT_THAT(refusal("1"), HasSubstr("frame 1 has no pose"));
-  // Told before anything is done: nobody has come upon the bad model yet.
+  // Reported before any processing: no code has read the bad model yet.
   WriteFile(folder / "site/object.obj", "v 0 0 0\n");
   EXPECT_THAT(refusal("2"), HasSubstr("frame 2 lies beyond the recording's 2"));
   EXPECT_THAT(refusal("1"), HasSubstr("object.obj"));
@@ -134,18 +134,18 @@ TEST(BenchReplay, TracesDaylightAsFinelyAndAsFarAsAsked) {
     return files.empty() ? std::string() : ReadFile(folder / "cache" / files.front());
   };
   const std::string as_is = traced({});
-  // A number a patch of the sky: 145 of Tregenza's, 577 of Reinhart's.
+  // One number per sky patch: 145 of Tregenza's, 577 of Reinhart's.
   EXPECT_GT(traced({"--sky-division", "2"}).size(), 3 * as_is.size());
   const std::string fewer_reflections = traced({"--convergence", "0.2"});
   EXPECT_EQ(fewer_reflections.size(), as_is.size());
-  // Beyond the file's head, in the light itself.
+  // After the file's header, in the light data.
   EXPECT_NE(fewer_reflections.substr(as_is.size() / 2), as_is.substr(as_is.size() / 2));
 }
 
 TEST(Replay, ShowsOnATerminalHowFarItIs) {
   const TemporaryFolder folder;
   MakeShortRecording(folder / "site", 1, true);
-  // A terminal of its own (util-linux).
+  // A pseudo-terminal (util-linux).
   const std::string command = PleinairProgram() + " replay '" + (folder / "site").string() +
                               "' -o '" + (folder / "out").string() +
                               "' --no-video --light stated --light-cache '" +
@@ -159,7 +159,8 @@ TEST(Replay, ShowsOnATerminalHowFarItIs) {
 }
 
 TEST(Replay, ReportsThatTheLightChangedMeanwhile) {
-  // Medians of five readings in a row are compared: of the second five three are darker.
+  // The program compares medians of five consecutive estimates. Three of the second five are
+  // darker.
   constexpr int kFrames = 8;
   const TemporaryFolder folder;
   MakeShortRecording(folder / "site", kFrames, true);
@@ -170,7 +171,7 @@ TEST(Replay, ReportsThatTheLightChangedMeanwhile) {
     return run.err;
   };
   EXPECT_THAT(warning(), Not(HasSubstr("brightness changed")));
-  // Half the light, about.
+  // About half the light.
   for (int i = kFrames - 3; i < kFrames; ++i) {
     const std::string file = folder / fmt::format("site/frames/{:04}.jpg", i);
     const cv::Mat picture = cv::imread(file);
@@ -183,7 +184,7 @@ TEST(Replay, ReportsThatTheLightChangedMeanwhile) {
 TEST(Replay, ReportsThatTheLightCouldNotBeKept) {
   const TemporaryFolder folder;
   MakeShortRecording(folder / "site", 1, true);
-  // /proc refuses new folders to everybody, also to root.
+  // /proc rejects new folders from every user, including root.
   const RunResult run = RunPleinair({"replay", folder / "site", "-o", folder / "out", "--no-video",
                                      "--light", "stated", "--light-cache", "/proc/pleinair"});
   EXPECT_EQ(run.exit_code, 0) << run.err;
@@ -217,7 +218,7 @@ size_m = 0.5
     std::printf("%-32s median %.5f, 95 %% %.5f, largest %.5f\n", what, Percentile(values, 0.5),
                 Percentile(values, 0.95), Percentile(values, 1.0));
   }
-  // As good as with an AprilTag in the same place, or better (docs/measurements/tracker.md).
+  // At least as accurate as with an AprilTag in the same place (docs/measurements/tracker.md).
   EXPECT_LT(Percentile(rotation_deg, 0.5), 0.012);
   EXPECT_LT(Percentile(rotation_deg, 1.0), 0.04);
   EXPECT_LT(Percentile(position_share, 0.5), 0.0002);
@@ -245,7 +246,7 @@ TEST(Replay, GivesTheSameBytesTwice) {
   std::array<nlohmann::json, 2> reports;
   for (int i = 0; i < 2; ++i) {
     const std::string out = folder / ("out" + std::to_string(i));
-    // One run on one processor: threads must not show either.
+    // One run on one processor: threads must not change the result either.
     const RunResult run = RunPleinair({"replay", folder / "site", "-o", out, "--frames"},
                                       i == 0 ? "" : "taskset -c 0");
     ASSERT_EQ(run.exit_code, 0) << run.err;

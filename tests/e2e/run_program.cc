@@ -27,7 +27,7 @@ RunResult RunCommandLine(const std::vector<std::string>& arguments, const std::s
   const TemporaryFolder capture;
   std::string command = prefix + " ";
   for (const std::string& argument : arguments) command += Quoted(argument) + " ";
-  // The redirections stand outside, so that a prefix's limits do not hit them.
+  // The redirections are outside, so that a prefix's limits do not apply to them.
   command = "{ " + command + "; } >" + Quoted(capture / "out") + " 2>" + Quoted(capture / "err");
   const int status = std::system(command.c_str());
   RunResult result;

@@ -6,25 +6,25 @@
 
 namespace pleinair::e2e {
 
-/// What a run of a program left behind.
+/// Result of a program run.
 struct RunResult {
-  int exit_code = -1;  ///< -1 where a signal ended it.
+  int exit_code = -1;  ///< -1 if a signal ended it.
   std::string out;
   std::string err;
 };
 
-/// Runs a program with arguments, without a shell's interpretation. `prefix` is shell text put
-/// before it ("ulimit -f 64;").
+/// Runs a program with arguments, without shell interpretation of them. `prefix` is shell text
+/// before the command ("ulimit -f 64;").
 RunResult RunCommandLine(const std::vector<std::string>& arguments, const std::string& prefix = "");
 
-/// The program under test: the environment's PLEINAIR_PROGRAM (one built with sanitizers, say),
-/// else the one of the tests' own build.
+/// The program under test: the environment's PLEINAIR_PROGRAM (for example a sanitizer build), else
+/// the one of this build.
 std::string PleinairProgram();
 
-/// That program, with arguments.
+/// Runs that program with arguments.
 RunResult RunPleinair(std::vector<std::string> arguments, const std::string& prefix = "");
 
-/// A folder that goes when the test ends.
+/// A temporary folder, removed at the end of the test.
 class TemporaryFolder {
  public:
   TemporaryFolder();
@@ -41,14 +41,14 @@ class TemporaryFolder {
 std::string ReadFile(const std::filesystem::path& file);
 void WriteFile(const std::filesystem::path& file, const std::string& content);
 
-/// Names of everything below a folder, relative, sorted; empty where it is not there.
+/// Relative names of everything below a folder, sorted; empty if there is no such folder.
 std::vector<std::string> Listing(const std::filesystem::path& folder);
 
-/// The first `frames` frames of the bundled recording as a recording of its own, with a scene that
-/// a person could have written: the marker, the phantoms, and the virtual object if `with_object`.
+/// Writes the first `frames` frames of the bundled recording as a recording, with a user-style
+/// scene: the marker, the phantoms, and the virtual object if `with_object`.
 void MakeShortRecording(const std::filesystem::path& folder, int frames, bool with_object);
 
-/// Where the bundled recording lies.
+/// Folder of the bundled recording.
 std::filesystem::path BundledRecording();
 
 }  // namespace pleinair::e2e

@@ -1,4 +1,4 @@
-// `pleinair detect --family sg` from outside, on what `pleinair marker` printed.
+// Tests `pleinair detect --family sg` as a process, on markers from `pleinair marker`.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -42,21 +42,21 @@ class SgDetect : public ::testing::Test {
     ASSERT_EQ(run.exit_code, 0) << run.err;
     print_ = cv::imread(folder_ / "m.png", cv::IMREAD_GRAYSCALE);
     ASSERT_EQ(print_.size(), cv::Size(kPrint_px, kPrint_px));
-    // Ink and paper, not black and white beyond the camera's range.
+    // Ink and paper within the camera's range, in place of pure black and white.
     print_ = print_ * 0.7 + 30;
   }
 
   static cv::Mat Grey() { return {kPicture, CV_8UC1, cv::Scalar(120)}; }
 
-  /// The marker with its print's top-left pixel at `at`.
+  /// An image of the marker with its top-left pixel at `at`.
   cv::Mat With(cv::Point at) const {
     cv::Mat picture = Grey();
     print_.copyTo(picture(cv::Rect(at, print_.size())));
     return picture;
   }
 
-  /// The picture as a lens shows it: no camera's edges are as sharp as those of a drawing, and
-  /// light blurs, not its codes.
+  /// The image through a lens: real edges are less sharp than drawn ones. The blur acts on linear
+  /// light, not on pixel values.
   static cv::Mat Seen(const cv::Mat& picture) {
     cv::Mat light(picture.size(), CV_32FC1), seen(picture.size(), CV_8UC1);
     std::ranges::transform(cv::Mat1b(picture), cv::Mat1f(light).begin(),
@@ -90,14 +90,14 @@ TEST_F(SgDetect, ReportsNumberCornersPoseAndVisibilityOfAPrintedMarker) {
   ASSERT_EQ(lines.size(), 1U);
   EXPECT_EQ(lines[0].at("file"), picture);
   EXPECT_GT(lines[0].at("milliseconds").get<double>(), 0.0);
-  EXPECT_FALSE(lines[0].contains("lost"));  // Not asked to follow.
+  EXPECT_FALSE(lines[0].contains("lost"));  // Not reported without tracking.
   ASSERT_EQ(lines[0].at("markers").size(), 1U);
   const json& marker = lines[0]["markers"][0];
   EXPECT_EQ(marker.at("family"), "sg");
   EXPECT_EQ(marker.at("id"), 17);
   EXPECT_EQ(marker.at("path"), "fast");
   EXPECT_GT(marker.at("visible_fraction").get<double>(), 0.9);
-  // Pixels' edges lie half a pixel before their centres.
+  // The edges of pixels are half a pixel before their centres.
   const double left = 70 + kQuiet_px - 0.5, top = 40 + kQuiet_px - 0.5;
   const double corners[4][2] = {{left, top},
                                 {left + kEdge_px, top},
@@ -112,7 +112,7 @@ TEST_F(SgDetect, ReportsNumberCornersPoseAndVisibilityOfAPrintedMarker) {
   EXPECT_NEAR(translation[0].get<double>(), (left + 100 - 199.5) / kFocal_px * distance_m, 5e-4);
   EXPECT_NEAR(translation[1].get<double>(), (top + 100 - 149.5) / kFocal_px * distance_m, 5e-4);
   EXPECT_NEAR(translation[2].get<double>(), distance_m, 2e-3);
-  // Seen upright and from the front: x right, y up in the picture, z towards the camera.
+  // Upright and from the front: x right, y up in the image, z towards the camera.
   const double upright[9] = {1, 0, 0, 0, -1, 0, 0, 0, -1};
   for (int i = 0; i < 9; ++i) {
     EXPECT_NEAR(marker["camera_from_marker"].at("rotation")[i].get<double>(), upright[i], 0.03);

@@ -1,4 +1,4 @@
-// Replay of recordings with an S-G marker: named or not, lost, mirrored.
+// Tests replays of recordings with an S-G marker: named or not, lost, mirrored.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -20,7 +20,8 @@ using nlohmann::json;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-/// The first frames of the bundled recording, with its scene.json after `edit`, and no object.
+/// The first frames of the bundled recording, with its scene.json changed by `edit`, without
+/// object.
 template <typename Edit>
 void MakeRecording(const fs::path& folder, int frames, Edit edit) {
   MakeShortRecording(folder, frames, false);
@@ -44,7 +45,7 @@ std::vector<json> Detections(const TemporaryFolder& folder) {
   return JsonLines(ReadFile(folder / "out/detections.jsonl"));
 }
 
-/// What is left to say of a marker whose print was exchanged for another.
+/// Reduces the description of the marker to what remains true of a replacement.
 void LeaveUnnamed(json& scene) {
   json& marker = scene["marker"];
   for (const char* key : {"family", "id", "version"}) marker.erase(key);
@@ -54,7 +55,7 @@ void LeaveUnnamed(json& scene) {
 TEST(SgReplay, FindsTheMarkerThatTheSceneDoesNotName) {
   const TemporaryFolder folder;
   MakeRecording(folder / "site", 2, LeaveUnnamed);
-  // Says nothing of its family either.
+  // The family is absent too.
   json recording = json::parse(ReadFile(folder / "site/recording.json"));
   ASSERT_FALSE(recording["marker"].contains("family"));
   const RunResult run = Replay(folder);

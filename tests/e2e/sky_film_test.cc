@@ -1,4 +1,4 @@
-// The time-lapse of `pleinair sky`, and what is left of results that could not be finished.
+// Tests the time-lapse video of `pleinair sky`, and what remains of unfinished results.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::StartsWith;
 
-/// How many pictures an MP4 holds: its sample size box (ISO 14496-12, 8.7.3).
+/// Number of images in an MP4: its sample size box (ISO 14496-12, 8.7.3).
 int CountFrames(const std::string& mp4) {
   const std::size_t at = mp4.find("stsz");
   if (at == std::string::npos || at + 16 > mp4.size()) return -1;
@@ -58,7 +58,7 @@ TEST(Sky, FilmsADay) {
 TEST(Sky, LeavesNothingOfAnInterruptedFilm) {
   const TemporaryFolder folder;
   const std::string out = folder / "a.mp4";
-  // Once it has begun to write (or, should it never, after a while).
+  // After it has begun to write, or after a timeout.
   const RunResult run = RunCommandLine(
       {"sh", "-c",
        PleinairProgram() +

@@ -1,4 +1,4 @@
-// What `pleinair sky` says of the light: illuminances, and luminances at directions.
+// Tests the light that `pleinair sky` reports: illuminances, and luminances in directions.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ TEST(Sky, ReportsTheIlluminancesOfAPlaceAndATime) {
   EXPECT_NEAR(sun / noon.at("sun_normal_lux").get<double>(), std::sin(43.1195 * M_PI / 180.0),
               1e-4);
   const json same = RunJson({"sky", "--sun", "182.458881,43.119512", "--model", "perez"});
-  // --sun stands at 1 au; on that day it was 1.00583 au away.
+  // --sun assumes a distance of 1 au; on that day it was 1.00583 au.
   EXPECT_NEAR(same.at("sky_horizontal_lux").get<double>() / sky, 1.00583 * 1.00583, 1e-3);
 }
 
@@ -39,7 +39,7 @@ TEST(Sky, AnswersForEveryDirectionOfATable) {
   std::string table = "id,elevation_deg,azimuth_deg\n";
   constexpr int kRings = 30, kSectors = 36;
   for (int ring = 0; ring < kRings; ++ring) {
-    // Equal projected solid angles.
+    // Directions of equal projected solid angle.
     const double elevation = std::asin(std::sqrt((ring + 0.5) / kRings)) * 180.0 / M_PI;
     for (int sector = 0; sector < kSectors; ++sector) {
       table += "7," + std::to_string(elevation) + "," + std::to_string(10 * sector + 5) + "\n";
@@ -85,14 +85,14 @@ TEST(Sky, TabulatesADay) {
                    "+02:00", "--step", "3600", "--model", "perez"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const std::vector<std::string> lines = Lines(run.out);
-  ASSERT_EQ(lines.size(), 26u);  // Both midnights.
+  ASSERT_EQ(lines.size(), 26u);  // Both midnights included.
   EXPECT_THAT(lines[0], StartsWith("utc,sun_azimuth_deg,sun_elevation_deg,sky_horizontal_lux"));
   EXPECT_THAT(lines[1], StartsWith("2025-06-20T22:00:00Z,"));
   EXPECT_THAT(lines[25], StartsWith("2025-06-21T22:00:00Z,"));
   EXPECT_THAT(run.out, Not(HasSubstr(",nan")));
 }
 
-// Clouds dim the sun and even out the sky; the default model is the atmosphere.
+// Clouds attenuate the sun and make the sky more uniform. The default model is the atmosphere.
 TEST(Sky, CloudsTakeTheSunAway) {
   const json clear = RunJson({"sky", "--sun", "180,40"});
   const json half = RunJson({"sky", "--sun", "180,40", "--cloud-cover", "0.5"});

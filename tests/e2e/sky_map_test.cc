@@ -1,4 +1,4 @@
-// The maps and pictures of `pleinair sky` as other programs read them.
+// Tests that other programs read the maps and images of `pleinair sky` correctly.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -24,9 +24,9 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-/// A picture of light: blue, green, red floats.
+/// An image of light: blue, green, red floats.
 cv::Mat ReadLight(const fs::path& file) {
-  setenv("OPENCV_IO_ENABLE_OPENEXR", "1", 1);  // OpenCV asks for it before it reads OpenEXR.
+  setenv("OPENCV_IO_ENABLE_OPENEXR", "1", 1);  // OpenCV requires this before it reads OpenEXR.
   cv::Mat picture = cv::imread(file.string(), cv::IMREAD_UNCHANGED);
   EXPECT_EQ(picture.type(), CV_32FC3) << file;
   return picture;
@@ -41,8 +41,8 @@ struct Vector {
   double x, y, z;
 };
 
-/// Mean direction of the light above half the maximum, by a program's own map from a place in the
-/// picture (u from the left, v from the bottom, both 0 to 1) to its world.
+/// Mean direction of the light above half the maximum. `direction_of` is another program's map from
+/// image position (u from the left, v from the bottom, 0 to 1) to direction.
 template <typename DirectionOf>
 Vector CentreOfTheBrightest(const cv::Mat& picture, const DirectionOf& direction_of) {
   double highest = 0.0;
@@ -111,7 +111,7 @@ TEST_P(SkyMap, HasItsSunWhereBlenderAndThreeJsExpectIt) {
 INSTANTIATE_TEST_SUITE_P(Sky, SkyMap, ::testing::Values(".exr", ".hdr"),
                          [](const auto& ending) { return ending.param.substr(1); });
 
-/// What a latitude-longitude map sheds on level ground, and all its light taken together.
+/// Irradiance of a latitude-longitude map on level ground, and its total light.
 struct MapLight {
   double horizontal_lx = 0.0, total = 0.0;
 };
@@ -194,7 +194,7 @@ TEST(Sky, FisheyeShowsTheSunInTheSouthWestLowerRight) {
       picture.at<cv::Vec3b>(static_cast<int>(200 - r), static_cast<int>(200 - r));
   EXPECT_GT(sun[1], 200);
   EXPECT_GT(sun[1], opposite[1] + 40);
-  EXPECT_GT(opposite[0], opposite[2] + 20);  // The far sky is blue.
+  EXPECT_GT(opposite[0], opposite[2] + 20);  // The sky opposite the sun is blue.
   EXPECT_EQ(picture.at<cv::Vec3b>(3, 3), cv::Vec3b(0, 0, 0));
 }
 
@@ -229,7 +229,7 @@ TEST(Sky, ExposesAsItIsTold) {
   EXPECT_GT(mean_green("12"), mean_green("14") + 20.0);
   const json automatic = RunJson(
       {"sky", "--sun", "225,30", "--model", "perez", "--size", "64", "-o", folder / "a.png"});
-  // Sunny 16: EV 15 for the scene; a camera that looks at the sky alone opens further.
+  // Sunny 16: EV 15 for the scene; a camera that sees only the sky needs less exposure.
   EXPECT_NEAR(automatic.at("picture").at("ev100").get<double>(), 13.0, 1.0);
 }
 

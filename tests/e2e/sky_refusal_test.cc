@@ -1,4 +1,4 @@
-// What `pleinair sky` refuses.
+// Tests the command lines that `pleinair sky` rejects.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// `pleinair sun` from outside: what it prints, and what it refuses.
+// Tests `pleinair sun` as a process: its output and its errors.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -56,8 +56,8 @@ TEST(Sun, PrintsAMomentForPeople) {
   EXPECT_THAT(run.err, IsEmpty());
 }
 
-// The day that is meant by 00:05 on a summer clock is the new one, although by the sun it is still
-// the eve.
+// At 00:05 summer time the local date is the new day, although solar time is still the previous
+// day.
 TEST(Sun, TakesTheDayFromTheOffsetOfTheTime) {
   const json meant =
       RunJson({"sun", "--at", "50.0875,14.4213", "--time", "2025-06-21T00:05:00+02:00"});
@@ -98,7 +98,7 @@ TEST(Sun, ReportsADayWithTwoSunsets) {
   }
   EXPECT_THAT(names, ElementsAre("sunset", "midnight", "sunrise", "noon", "sunset"));
   EXPECT_TRUE(std::is_sorted(times.begin(), times.end()));
-  EXPECT_EQ(day.at("sunset"), times.back());  // The one after noon.
+  EXPECT_EQ(day.at("sunset"), times.back());  // The sunset after noon.
   EXPECT_EQ(day.at("day"), "2025-07-15");
   EXPECT_NEAR(day.at("day_length_s").get<double>(), 72'224.0, 5.0);
   const RunResult text = RunPleinair(fairbanks);
@@ -170,7 +170,7 @@ TEST(Sun, DrawsTheSunPathAsSvgAndPng) {
   ASSERT_EQ(png.cols, 600);
   ASSERT_EQ(png.rows, 654);
   EXPECT_EQ(Listing(folder.path()).size(), 2u);
-  // The same again.
+  // The same result again.
   RunPleinair({"sun", "--at", "50.0875,14.4213", "--path", folder / "again.svg", "--year", "2025",
                "--utc-offset", "+01:00", "--size", "600"});
   EXPECT_EQ(ReadFile(folder / "again.svg"), svg);

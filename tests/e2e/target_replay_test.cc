@@ -1,4 +1,4 @@
-// Replay of a recording whose scene has a picture in place of a marker.
+// Tests the replay of a recording whose scene has a picture target in place of a marker.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ using nlohmann::json;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-constexpr double kWidth_m = 0.84;  // Covers the recording's own marker with its board.
+constexpr double kWidth_m = 0.84;  // Covers the recording's own marker with its white margin.
 
 constexpr const char* kScene = R"(time = "2025-09-14T11:05:00Z"
 cloudiness = "clear"
@@ -38,8 +38,8 @@ file = "phantom.obj"
 file = "object.obj"
 )";
 
-/// The first frames of the bundled recording with a poster over the marker, and where the camera
-/// was.
+/// The first frames of the bundled recording with a poster over the marker, and the true camera
+/// poses.
 std::vector<TumPose> MakePosterRecording(const std::filesystem::path& folder, int frames) {
   MakeShortRecording(folder, frames, true);
   const cv::Mat poster = Poster(1);
@@ -66,7 +66,7 @@ void Cover(const std::filesystem::path& file, Draw draw) {
 TEST(TargetReplay, FollowsAPictureAndComposesOnItThroughCoversAndLoss) {
   const TemporaryFolder folder;
   const std::vector<TumPose> truth = MakePosterRecording(folder / "site", 8);
-  // A bar over two fifths of the poster in frames 3 and 4; nothing of it in frame 5.
+  // A bar over two fifths of the poster in frames 3 and 4; in frame 5 the whole poster is hidden.
   for (const int i : {3, 4}) {
     Cover(folder / fmt::format("site/frames/{:04}.jpg", i), [](cv::Mat& frame) {
       cv::rectangle(frame, {330, 0}, {420, 479}, {90, 120, 190}, cv::FILLED);
@@ -96,7 +96,7 @@ TEST(TargetReplay, FollowsAPictureAndComposesOnItThroughCoversAndLoss) {
   EXPECT_EQ(frames[1]["markers"][0]["path"], "tracked");
   EXPECT_EQ(frames[1]["markers"][0]["name"], "poster");
   EXPECT_GT(frames[1]["markers"][0]["visible_fraction"], 0.95);
-  // The mask knows where the bar is: its parts are covered, the others are seen.
+  // The coverage mask contains the bar: covered blocks, and visible ones elsewhere.
   const json& covered = frames[4]["markers"][0];
   EXPECT_LT(covered["visible_fraction"], 0.8);
   EXPECT_GT(covered["visible_fraction"], 0.4);
@@ -106,7 +106,7 @@ TEST(TargetReplay, FollowsAPictureAndComposesOnItThroughCoversAndLoss) {
   EXPECT_EQ(frames[5]["lost"], json::parse(R"([{"family":"picture","id":0,"name":"poster",
                                                "frames":1}])"));
   EXPECT_THAT(frames[6]["lost"], IsEmpty());
-  // The object stands on the poster, and its frames without a pose are left alone.
+  // The object stands on the poster. Frames without a pose are unchanged.
   const auto difference = [&](int i) {
     const cv::Mat before = cv::imread(folder / fmt::format("site/frames/{:04}.jpg", i));
     return cv::norm(before, cv::imread(folder / fmt::format("out/frames/{:04}.png", i)),

@@ -1,4 +1,4 @@
-// `pleinair target` and `pleinair detect --target` from outside.
+// Tests `pleinair target` and `pleinair detect --target` as processes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -43,7 +43,7 @@ class Target : public ::testing::Test {
     return folder_ / name;
   }
 
-  /// The poster at half of half its size, its top-left pixel at `at`.
+  /// The poster scaled by a quarter, its top-left pixel at `at`.
   cv::Mat With(cv::Point at, const cv::Mat& poster) const {
     cv::Mat picture(kPicture, CV_8UC1, cv::Scalar(120)), small;
     cv::resize(poster, small, kPoster, 0, 0, cv::INTER_AREA);
@@ -100,7 +100,7 @@ TEST_F(Target, IsMadeRatedAndFound) {
   EXPECT_EQ(marker.at("name"), "poster");
   EXPECT_EQ(marker.at("path"), "surf-golay");
   EXPECT_GT(marker.at("visible_fraction").get<double>(), 0.95);
-  // Pixels' edges lie half a pixel before their centres.
+  // The edges of pixels are half a pixel before their centres.
   const double left = 109.5, top = 59.5, right = left + 200, bottom = top + 150;
   const double corners[4][2] = {{left, top}, {right, top}, {right, bottom}, {left, bottom}};
   for (int i = 0; i < 4; ++i) {
@@ -220,7 +220,7 @@ TEST_F(Target, FileThatIsNoneIsRefusedByName) {
   }
   WriteFile(folder_ / "poster.target", whole);
   ExpectRefused(Detect({picture, "--target", folder_ / "none.target"}), "none.target");
-  // Markers need their size, and nothing to look for is no task.
+  // Markers need a size, and a detection without any target is an error.
   ExpectRefused(Detect({picture, "--family", "sg"}), "--size-mm");
   ExpectRefused(RunPleinair({"detect", picture, "--calibration", folder_ / "camera.yaml"}),
                 "--size-mm");

@@ -28,7 +28,7 @@ class Background {
  public:
   explicit Background(const std::string& command) : pid_(fork()) {
     if (pid_ != 0) return;
-    // A shell in its own group, so that all of it can be ended.
+    // A shell in its own process group, so that the whole group can be ended.
     setpgid(0, 0);
     execl("/bin/sh", "sh", "-c", ("exec " + command).c_str(), nullptr);
     _exit(127);
@@ -50,7 +50,7 @@ class Background {
     pid_ = -1;
     return false;
   }
-  /// After it ended.
+  /// After it has ended.
   int exit_code() const { return exit_code_; }
 
  private:
@@ -58,7 +58,7 @@ class Background {
   int exit_code_ = -1;
 };
 
-/// Asks again and again until it holds or patience is over.
+/// Polls a condition until it holds or a timeout passes.
 bool Until(const std::function<bool()>& holds) {
   const auto limit = Clock::now() + kPatience;
   while (!holds()) {
@@ -72,7 +72,7 @@ bool Runs(const std::string& program) {
   return std::system(("command -v " + program + " >/dev/null 2>&1").c_str()) == 0;
 }
 
-/// Pixels of two pictures that clearly differ.
+/// Number of pixels that clearly differ between two images.
 int Differing(const cv::Mat& a, const cv::Mat& b) {
   cv::Mat difference, grey;
   cv::absdiff(a, b, difference);
@@ -80,7 +80,7 @@ int Differing(const cv::Mat& a, const cv::Mat& b) {
   return cv::countNonZero(grey > 24);
 }
 
-/// A screen of its own with a session's window on it, and hands.
+/// A virtual display with a session's window, and simulated input.
 class Window : public testing::Test {
  protected:
   void SetUp() override {
@@ -119,9 +119,9 @@ class Window : public testing::Test {
            0;
   }
 
-  /// Presses the keys of a screenshot and waits for its file.
+  /// Presses the screenshot keys and waits for the file.
   cv::Mat Screenshot(const std::string& keys) {
-    // Names hold the time: the newest is the last of its kind.
+    // Names contain the time: the newest is the last one.
     const auto newest = [&] {
       std::string last;
       for (const std::string& name : Listing(folder_ / "pictures")) {
@@ -138,8 +138,8 @@ class Window : public testing::Test {
     return picture;
   }
 
-  /// The camera's picture once it clearly differs from `before`; empty where it never does. `again`
-  /// is done before every fourth look: a machine that is busy enough misses a click.
+  /// The camera image as soon as it clearly differs from `before`; empty after a timeout. `again`
+  /// runs before every fourth attempt: a very busy machine may miss a click.
   cv::Mat Changed(const cv::Mat& before, int pixels, const std::string& again = "") {
     cv::Mat now;
     int looks = 0;
@@ -153,7 +153,7 @@ class Window : public testing::Test {
     return changed ? now : cv::Mat();
   }
 
-  /// The whole window once it shows the camera's picture.
+  /// The whole window once it shows the camera image.
   cv::Mat WithPicture() {
     Screenshot("ctrl+s");
     return Screenshot("ctrl+shift+s");
@@ -171,17 +171,17 @@ class Window : public testing::Test {
 };
 
 TEST_F(Window, KeysMouseAndPanelChangeTheSceneAndItClosesCleanly) {
-  // One frame again and again: whatever changes is the scene's doing.
+  // One frame repeated: every change comes from the scene.
   MakeShortRecording(folder_ / "site", 1, /*with_object=*/true);
   Open(fmt::format("--camera 'file:{}' --loop --rate 5 --light stated",
                    (folder_ / "site").string()));
   const cv::Mat start = Screenshot("ctrl+s");
   ASSERT_EQ(start.cols, 640);
-  // The one object is chosen already.
+  // The only object is selected already.
   ASSERT_TRUE(Hands("key --delay 60 Right Right Right"));
   const cv::Mat moved = Changed(start, 500);
   ASSERT_FALSE(moved.empty()) << "by a key";
-  // Its middle in the frame, where the window shows it.
+  // Its centre in the frame, at its position in the window.
   const cv::Mat whole = Screenshot("ctrl+shift+s");
   ASSERT_EQ(whole.cols, 1280);
   ASSERT_TRUE(Hands("key Home"));
@@ -192,25 +192,25 @@ TEST_F(Window, KeysMouseAndPanelChangeTheSceneAndItClosesCleanly) {
             "mouseup 1"));
   const cv::Mat dragged = Changed(back, 500);
   ASSERT_FALSE(dragged.empty()) << "by the mouse";
-  // Where it was dropped: the wheel makes it larger, the right button turns it.
+  // At the drop position the wheel enlarges it and the right button turns it.
   const cv::Mat larger = Changed(dragged, 500, "mousemove 500 320 click 4 click 4 click 4");
   ASSERT_FALSE(larger.empty()) << "by the wheel";
   const cv::Mat turned =
       Changed(larger, 300, "mousemove 500 320 mousedown 3 mousemove 560 320 sleep 0.2 mouseup 3");
   ASSERT_FALSE(turned.empty()) << "by the right button";
-  // The bar of the day's time, at three in the afternoon: shadows turn.
+  // The slider of the time of day, at 15:00: shadows turn.
   const cv::Mat later =
       Changed(turned, 500, "mousemove 1150 170 sleep 0.2 mousedown 1 sleep 0.3 mouseup 1");
   ASSERT_FALSE(later.empty()) << "by the panel";
-  // The partitions of the shadow maps tint most of the picture where a sun shines. Both tints take
-  // blue away; light that is still on its way changes less.
+  // The partitions of the shadow maps tint most of the image while the sun shines. Both tints
+  // reduce blue. Light that is still being computed changes less.
   const auto blue = [&] { return cv::mean(Screenshot("ctrl+s"))[0]; };
   const double plain = blue();
   ASSERT_TRUE(Hands("key m"));
   EXPECT_TRUE(Until([&] { return blue() < 0.8 * plain; })) << "by the key of the shadow maps";
   ASSERT_TRUE(Hands("key m"));
   EXPECT_TRUE(Until([&] { return blue() > 0.9 * plain; })) << "and back";
-  // The right end of the clouds' bar: without a sun its shadow goes.
+  // The right end of the cloud slider: without a sun the shadow disappears.
   EXPECT_FALSE(
       Changed(later, 500, "mousemove 1130 347 sleep 0.2 mousedown 1 sleep 0.3 mouseup 1").empty())
       << "by clouds";
@@ -235,12 +235,13 @@ TEST_F(Window, RecordsWhileItIsShownAndTheLockHoldsTheBrightness) {
     return !recorded().empty() && std::filesystem::file_size(recorded()) > 5 * 640 * 480 * 3;
   }));
   ASSERT_TRUE(Hands("key ctrl+r"));
-  // Locked at noon it gets dark towards the evening; let go it is as bright as the marker again.
+  // With exposure locked at noon the evening becomes dark. Unlocked it is as bright as the marker
+  // again.
   ASSERT_TRUE(Hands("key l"));
   std::string later = "key --delay 30";
   for (int i = 0; i < 36; ++i) later += " bracketright";
   ASSERT_TRUE(Hands(later));
-  // Three codes over the whole picture; the light of the evening comes when it is made.
+  // Three pixel value steps over the whole image. The evening's light appears when it is computed.
   const auto green = [&] { return cv::mean(Screenshot("ctrl+s"))[1]; };
   const double noon = cv::mean(start)[1];
   double dark = noon;
@@ -266,7 +267,7 @@ TEST_F(Window, IsUsableWhenItIsSmallAndTwiceAsLargeOnAScreenOfTwiceTheScale) {
     top = Screenshot("ctrl+shift+s");
     return top.size() == cv::Size(320, 240) && Differing(top.colRange(0, 50), empty) > 500;
   })) << "some of the picture is seen beside the panel";
-  // The panel is longer than the window: the wheel reaches its end.
+  // The panel is longer than the window: the wheel scrolls to its end.
   ASSERT_TRUE(Hands("mousemove 200 120"));
   EXPECT_TRUE(Until([&] {
     EXPECT_TRUE(Hands("click 5"));
@@ -277,7 +278,7 @@ TEST_F(Window, IsUsableWhenItIsSmallAndTwiceAsLargeOnAScreenOfTwiceTheScale) {
       << "without the panel";
   ExpectToClose();
 
-  // What desktops tell GLFW of a screen with small pixels.
+  // What desktops report to GLFW for a high-density display.
   ASSERT_EQ(std::system(("DISPLAY=" + display_ +
                          " xprop -root -f RESOURCE_MANAGER 8s -set RESOURCE_MANAGER 'Xft.dpi: 192'")
                             .c_str()),
@@ -291,7 +292,7 @@ TEST_F(Window, IsUsableWhenItIsSmallAndTwiceAsLargeOnAScreenOfTwiceTheScale) {
   Open(camera + " --window 1280x800 --ui-scale 2");
   const cv::Mat large = WithPicture();
   ASSERT_EQ(large.size(), scaled.size());
-  // But for the counts in its statistics it is the same.
+  // Identical except for the counts in its statistics.
   EXPECT_LT(Differing(large, scaled), 1280 * 800 / 50);
   ExpectToClose();
 }

@@ -5,7 +5,7 @@
 
 #include "devices/calibration/calibration.h"
 
-// Any bytes give a lens that can be computed with, or an error; never a crash.
+// Any bytes give a valid lens or an error, never a crash.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto camera = pleinair::devices::ParseCalibration(
       {reinterpret_cast<const char*>(data), size}, "calibration");

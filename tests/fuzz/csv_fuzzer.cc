@@ -7,8 +7,7 @@
 #include "app/sky/sky_directions.h"
 #include "app/sun/sun_table.h"
 
-// Any bytes give a table of what can be computed, or an error; never a crash. Rows point into the
-// text.
+// Any bytes give a table of finite values or an error, never a crash. Rows refer to the text.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   const auto within = [&](std::string_view part) {

@@ -5,8 +5,8 @@
 #include "compositor/models/gltf_reader.h"
 #include "compositor/models/mesh_normals.h"
 
-// Any bytes are a glTF model, text or binary, or an error. Its folder does not exist, so that
-// buffers and pictures come from the file itself.
+// Any bytes give a glTF model, text or binary, or an error. The model's folder does not exist, so
+// that buffers and images come from the file itself.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   namespace compositor = pleinair::compositor;
   const std::string content(reinterpret_cast<const char*>(data), size);

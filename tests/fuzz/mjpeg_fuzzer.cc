@@ -1,4 +1,4 @@
-// A camera's JPEG, damaged in any way: refused or decoded, never more.
+// A damaged JPEG from a camera is rejected or decoded, never a crash.
 #include <cstddef>
 #include <cstdint>
 

@@ -7,8 +7,8 @@
 #include "compositor/models/obj_parser.h"
 #include "compositor/models/texture_decoder.h"
 
-// Any bytes are an OBJ or an error. What follows a line "#mtl" is its material library, so that
-// both parsers are reached by one input; textures are the library's own bytes.
+// Any bytes give an OBJ model or an error. The text after a line "#mtl" is its material library, so
+// that one input reaches both parsers. Textures are the library's own bytes.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   namespace compositor = pleinair::compositor;
   const std::string_view input(reinterpret_cast<const char*>(data), size);

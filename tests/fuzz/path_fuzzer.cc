@@ -17,7 +17,7 @@ namespace {
 using pleinair::Result;
 using pleinair::exports::CameraTrajectory;
 
-// A path is whole: times ascend, poses are finite rotations; an error says what is wrong.
+// A valid trajectory has ascending times and finite rotations. An error has a message.
 void Check(const Result<CameraTrajectory>& path) {
   if (!path) {
     if (path.error().what.empty()) std::abort();
@@ -35,7 +35,7 @@ void Check(const Result<CameraTrajectory>& path) {
       if (!(std::fabs(square.m[k] - pleinair::Mat3().m[k]) < 1e-9)) std::abort();
     }
   }
-  // What was read can be written and read again.
+  // A trajectory that was read can be written and read again.
   if (!pleinair::exports::ParseTum(pleinair::exports::TumText(*path, "again"), "again"))
     std::abort();
 }
@@ -50,8 +50,8 @@ void CheckModel(Result<pleinair::exports::ColmapModel> model) {
 
 }  // namespace
 
-// Any bytes are a path or an error in each of the forms; a COLMAP model's three files are told
-// apart by lines of '='.
+// Any bytes give a trajectory or an error in each format. Lines of '=' separate the three files of
+// a COLMAP model.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   Check(pleinair::exports::ParseTum(text, "file"));

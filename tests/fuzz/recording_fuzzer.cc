@@ -8,8 +8,8 @@
 #include "devices/recordings/recording_manifest.h"
 #include "scene/scene_facts.h"
 
-// Every parser that a recording's folder passes through, on the same bytes: the formats refuse
-// each other early. What is accepted must hold what its header promises.
+// Passes the same bytes to every parser of a recording's files; most formats reject the others
+// early. An accepted file must be consistent with its header.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace pleinair::devices;  // NOLINT(google-build-using-namespace)
   using pleinair::scene::CompleteScene;

@@ -21,7 +21,7 @@ namespace tracker = pleinair::tracker;
 constexpr std::uint32_t kLookForOneOf = 32;
 constexpr std::size_t kLengthAt = 12, kChecksumAt = 16, kHeader = 20;
 
-/// With the header that belongs to the content, so that what lies behind it is reached.
+/// Adds the header that matches the content, so that the code behind it is reached.
 std::string Sealed(std::string bytes) {
   if (bytes.size() < kHeader) return bytes;
   const auto length = static_cast<std::uint32_t>(bytes.size() - kHeader);
@@ -32,7 +32,7 @@ std::string Sealed(std::string bytes) {
   return bytes;
 }
 
-/// Looks for a target in its own picture and in what the bytes paint, as frames one after another.
+/// Detects a target in its own image and in an image from the bytes, as consecutive frames.
 void LookFor(tracker::PictureTarget target, const std::string& bytes) {
   const int width = target.picture.width(), height = target.picture.height();
   const CameraModel camera{.width = width,
@@ -73,8 +73,8 @@ void LookFor(tracker::PictureTarget target, const std::string& bytes) {
 
 }  // namespace
 
-// Any bytes give a target that can be rated, written again and looked for, or an error; as they
-// are, and with the length and checksum that belong to them.
+// Any bytes give a target that can be rated, written and detected, or an error. They are read
+// unchanged, and with matching length and checksum.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string bytes(reinterpret_cast<const char*>(data), size);
   for (const std::string& tried : {bytes, Sealed(bytes)}) {
@@ -86,7 +86,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (tracker::SerializeTarget(*target) != tried) std::abort();
     const tracker::TargetQuality quality = tracker::RateTarget(*target);
     if (quality.score < 0 || quality.score > 100) std::abort();
-    // Looking takes a hundred times as long as reading.
+    // Detection takes a hundred times as long as reading.
     if (tracker::Crc32(tried) % kLookForOneOf == 0) LookFor(*std::move(target), tried);
   }
   return 0;

@@ -21,7 +21,7 @@ namespace tracker = pleinair::tracker;
 
 constexpr int kMaxWidth = 160, kMaxHeight = 120;
 
-/// Bytes of the input one after another, 0 where they have ended.
+/// Returns the bytes of the input in order, 0 after the end.
 class Bytes {
  public:
   Bytes(const std::uint8_t* data, std::size_t size) : data_(data), size_(size) {}
@@ -37,7 +37,7 @@ void PaintBytes(Bytes* bytes, GreyImage* image) {
   for (std::size_t i = 0; i < image->size(); ++i) image->data()[i] = bytes->Next();
 }
 
-/// A marker in the quadrilateral that the bytes say, then spots and bars that they say.
+/// Draws a marker in a quadrilateral, then spots and bars, all determined by the bytes.
 void PaintMarker(Bytes* bytes, GreyImage* image) {
   const int number = (bytes->Next() << 8 | bytes->Next()) % 4096;
   const tracker::MarkerPattern print = tracker::SgMarkerPattern(number);
@@ -71,9 +71,9 @@ void PaintMarker(Bytes* bytes, GreyImage* image) {
   }
 }
 
-/// Making a tracker that searches for borders takes a while, so that it is kept. Each
-/// input must find it as if it were new: empty frames make it forget its markers, and bring it to
-/// the same place in its rounds of searches.
+/// Creating a tracker that searches for borders is slow, so it is reused. Each input must find it
+/// in its initial state. Empty frames make it forget its markers and return to the same point in
+/// its search cycle.
 class KeptTracker {
  public:
   KeptTracker(const CameraModel& camera, const tracker::TrackerOptions& options)
@@ -82,7 +82,7 @@ class KeptTracker {
   tracker::Tracker& get() { return *tracker_; }
 
   void Renew(int frames_seen) {
-    constexpr int kRound = 15;  // After so many frames everything is searched for again.
+    constexpr int kRound = 15;  // After this number of frames every search has been repeated.
     for (int frame = frames_seen; frame % kRound != 0 || !tracker_->Lost().empty(); ++frame) {
       if (!tracker_->Track(empty_.view())->empty()) std::abort();
     }
@@ -116,13 +116,13 @@ void Check(const pleinair::Result<std::vector<tracker::MarkerObservation>>& obse
 
 }  // namespace
 
-// Any small image gives a list of markers that can be computed with, alone and as one of
-// consecutive frames. The first byte says which kind of image and tracker, the next two its size.
+// Any small image gives a list of valid markers, alone and as one of several consecutive frames.
+// The first byte selects the kind of image and tracker, the next two the size.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   Bytes bytes(data, size);
   const std::uint8_t kind = bytes.Next();
   const bool marker = (kind & 1U) != 0, consecutive = (kind & 2U) != 0, bends = (kind & 4U) != 0;
-  // Trackers that search for borders see pictures of one size; others are made for each input.
+  // Trackers that search for borders receive images of one size; others are created for each input.
   const bool search = (kind & 8U) != 0;
   const std::uint8_t width_byte = bytes.Next(), height_byte = bytes.Next();
   const int width = search ? kMaxWidth : 1 + width_byte % kMaxWidth;
@@ -154,7 +154,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   Check(tracker.Track(image.view()));
   if (!consecutive) return 0;
-  // The next frames: a pixel further, then upside down.
+  // The next frames: shifted by a pixel, then upside down.
   GreyImage moved = image;
   std::copy(image.data(), image.data() + image.size() - 1, moved.data() + 1);
   Check(tracker.Track(moved.view()));

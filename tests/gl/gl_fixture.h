@@ -10,7 +10,7 @@
 
 namespace pleinair::gl {
 
-/// Gives each test a current debug context and fails it on anything the driver complains about.
+/// Gives each test a current debug context and fails it on any driver message.
 class GlTest : public ::testing::Test {
  protected:
   void SetUp() override {

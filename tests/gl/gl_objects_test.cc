@@ -44,7 +44,7 @@ TEST_F(GlObjects, DrawATriangleIntoOneLayerOfAnArray) {
   const Result<GlProgram> program = GlProgram::FromText(
       {{GL_VERTEX_SHADER, kVertex, "vertex"}, {GL_FRAGMENT_SHADER, kFragment, "fragment"}});
   ASSERT_TRUE(program.has_value()) << program.error().Message();
-  // The left half of the picture.
+  // The left half of the image.
   const std::array<float, 8> corners{-1, -1, 0, -1, -1, 1, 0, 1};
   const Result<GlBuffer> vertices = GlBuffer::FromSpan(std::span<const float>(corners));
   ASSERT_TRUE(vertices.has_value());
@@ -93,7 +93,7 @@ TEST_F(GlObjects, ReportWhichFileOfAShaderIsBroken) {
   EXPECT_THAT(program.error().Message(), HasSubstr("1 = objects_test/part.glsl"));
   EXPECT_THAT(program.error().Message(), HasSubstr("1:2"));
   EXPECT_THAT(program.error().Message(), HasSubstr("nonsense"));
-  context_->TakeErrors();  // Some drivers report what the log already says.
+  context_->TakeErrors();  // Some drivers also report what the log contains.
 }
 
 TEST_F(GlObjects, RefuseTexturesBeyondTheLimits) {

@@ -145,7 +145,7 @@ TEST(SceneFacts, FallbackFillsGapsButNeverBringsModels) {
   EXPECT_EQ(both.marker.size_m, 0.48);
   EXPECT_EQ(both.marker.id, 3);
   EXPECT_TRUE(both.objects.empty());
-  // Another sheet: its board and id are not those of the recorded one.
+  // A different sheet: the white margin and id of the recorded one do not apply.
   by_hand.marker.size_m = 0.1;
   EXPECT_FALSE(WithFallback(by_hand, recorded).marker.board_size_m);
   EXPECT_FALSE(WithFallback(by_hand, recorded).marker.id);

@@ -45,7 +45,7 @@ TEST(ZonedTime, ReadsLocalTimeWithItsZone) {
   EXPECT_EQ(OffsetMinutes("2025-01-14T13:05:00[Europe/Prague]"), 60);
 }
 
-// RFC 9557, section 3.4: an offset and the zone must agree; Z says nothing of local clocks.
+// RFC 9557, section 3.4: an offset and the zone must agree; Z makes no statement about local time.
 TEST(ZonedTime, TakesAnOffsetThatTheZoneHas) {
   EXPECT_EQ(Utc("2025-09-14T13:05:00+02:00[Europe/Prague]"), "2025-09-14T11:05:00Z");
   EXPECT_EQ(Utc("2025-09-14T11:05:00Z[Europe/Prague]"), "2025-09-14T11:05:00Z");
@@ -86,7 +86,7 @@ TEST(ZonedTime, SuggestsZonesNearAnUnknownOne) {
               AllOf(HasSubstr("for example Europe/Prague"), Not(HasSubstr("did you mean"))));
 }
 
-// Zone files end in 2037 with a rule for later years, which the date library passes over.
+// Zone files end in 2037 with a rule for later years, which the date library ignores.
 TEST(ZonedTime, RefusesWhatLiesAfterTheClockChangesOfTheDatabase) {
   EXPECT_EQ(Utc("2037-07-01T12:00:00[Europe/Prague]"), "2037-07-01T10:00:00Z");
   for (const char* text :
@@ -100,7 +100,7 @@ TEST(ZonedTime, RefusesWhatLiesAfterTheClockChangesOfTheDatabase) {
 TEST(ZonedTime, ReachesTheFirstAndLastYear) {
   EXPECT_EQ(Utc("1678-01-01T00:00:00[Asia/Kolkata]"), "1677-12-31T18:06:32Z");
   EXPECT_EQ(Utc("2261-12-31T23:59:59[Asia/Kolkata]"), "2261-12-31T18:29:59Z");
-  // Offsets of local mean time, to the second in the database, to the minute in RFC 3339.
+  // Local mean time offsets have seconds in the database, minutes in RFC 3339.
   EXPECT_EQ(Utc("1860-01-01T12:00:00+00:58[Europe/Prague]"), "1860-01-01T11:02:00Z");
 }
 

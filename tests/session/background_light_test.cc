@@ -70,7 +70,7 @@ TEST(BackgroundLight, RelightsAMovedObjectWhileOthersLookOn) {
   EXPECT_NE(in_use->request.solver, before->request.solver);
   while ((*light)->progress().coefficients < 1.0) std::this_thread::sleep_for(milliseconds(1));
   (*light)->Stop();
-  // What came of it is what is made from nothing for that place.
+  // The result equals a computation from scratch for that position.
   compositor::CoefficientOptions options;
   options.convergence = edit.convergence;
   const auto fresh = in_use->request.solver->Coefficients(
@@ -97,7 +97,7 @@ TEST(BackgroundLight, LeavesTheShadeOfTreesOutUnderTheSunOfAnotherHour) {
     edit.later_s = later_s;
     edit.heading_deg = heading_deg;
     (*light)->SetEdit(edit);
-    // A sanitized build on a busy machine takes some ten seconds a light.
+    // A sanitizer build on a busy machine needs about ten seconds per light.
     for (int i = 0; i < 60'000; ++i) {
       const auto newest = (*light)->Take();
       if (newest && newest->request.time == setup.time.PlusSeconds(later_s) &&
@@ -115,8 +115,8 @@ TEST(BackgroundLight, LeavesTheShadeOfTreesOutUnderTheSunOfAnotherHour) {
   EXPECT_FALSE(has_map(299, 30));
 }
 
-/// The next light of which this holds. Waits without a limit: a sanitized build on a busy machine
-/// takes some ten seconds a light.
+/// Waits for a light that satisfies a condition, without a timeout. A sanitizer build on a busy
+/// machine needs about ten seconds per light.
 template <typename Condition>
 std::shared_ptr<const BakedLighting> Await(BackgroundLight& light, const Condition& is_wanted) {
   while (true) {
@@ -175,10 +175,10 @@ TEST(BackgroundLight, KeepsTheCoefficientsOfTheSceneAsItBeganAlone) {
   std::filesystem::remove_all(cache);
 }
 
-/// A live light before a photographed yard with a small object at its rim.
+/// Live light in front of a photographed yard with a small object at its edge.
 class LiveYard {
  public:
-  /// `off_deg`: of the stated heading.
+  /// `off_deg`: error of the described heading.
   explicit LiveYard(double off_deg) {
     BackgroundLight::Setup setup;
     setup.camera = yard_.camera();
@@ -198,8 +198,8 @@ class LiveYard {
   const PhotographedYard& yard() const { return yard_; }
   BackgroundLight::Progress progress() const { return light_->progress(); }
 
-  /// Shows a picture as often as a look takes, a minute after the last look; gives the light that
-  /// is made then.
+  /// Passes enough frames for one light estimate, one minute after the last estimate. Returns the
+  /// resulting light.
   std::shared_ptr<const BakedLighting> LookAt(const RgbImage& picture) {
     auto frame = std::make_shared<devices::Frame>();
     frame->rgb = picture;
@@ -214,7 +214,7 @@ class LiveYard {
         seen = light_->progress().frames_in_estimate;
       }
     } while (seen > 0);
-    // Another light than any that was asked for before.
+    // A different light from all earlier requests.
     light_->SetTime(asked_for_ = asked_for_.PlusSeconds(600.0));
     return Await(*light_, [&](const BakedLighting& l) { return l.request.time == asked_for_; });
   }

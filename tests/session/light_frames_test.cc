@@ -9,7 +9,7 @@
 namespace pleinair::session {
 namespace {
 
-/// Every third frame has a pose, `seconds` apart from the next.
+/// Every third frame has a pose; frames are `seconds` apart.
 std::vector<Observation> Path(std::int64_t size, std::int64_t seconds) {
   std::vector<Observation> path(static_cast<std::size_t>(size));
   for (std::int64_t i = 0; i < size; ++i) {

@@ -96,7 +96,7 @@ TEST(MarkerTracks, DoesNotFlipToTheOtherPlanarSolution) {
   marker_tracks.AddFrame(1, 66'666'667, {ambiguous});
   const auto& path = marker_tracks.TrackOf({"tag36h11", 1});
   EXPECT_LT(RotationAngle(path[1].camera_from_marker.rotation, AboutX(0.11)), 1e-9);
-  // Where the picture itself tells, it is believed.
+  // An unambiguous image overrides the prediction.
   ambiguous.pose.ambiguity_ratio = 0.01;
   marker_tracks.AddFrame(2, 133'333'333, {ambiguous});
   EXPECT_LT(RotationAngle(path[2].camera_from_marker.rotation, AboutX(-0.1)), 1e-9);

@@ -14,7 +14,7 @@
 namespace pleinair::session {
 namespace {
 
-/// A bundled recording, with no virtual object in the scene: nothing is drawn.
+/// A bundled recording without a virtual object: nothing is drawn.
 devices::Recording Open(const char* name) {
   auto recording = devices::OpenRecording(tests::SourceTree() / "recordings" / name);
   EXPECT_TRUE(recording) << recording.error().Message();
@@ -24,7 +24,7 @@ devices::Recording Open(const char* name) {
 
 devices::Recording OpenTag() { return Open("courtyard_tag36h11"); }
 
-/// The first six frames at most.
+/// At most the first six frames.
 std::vector<devices::Frame> FramesOf(devices::Recording recording) {
   std::vector<devices::Frame> frames;
   while (frames.size() < 6) {

@@ -19,7 +19,7 @@ namespace {
 /// Six frames of an AprilTag and a virtual object.
 std::filesystem::path Tag() { return tests::SourceTree() / "recordings" / "courtyard_tag36h11"; }
 
-/// The same six frames four times: more than are measured at once.
+/// The same six frames four times: more than are processed at once.
 class RepeatedFrames : public devices::FrameSource {
  public:
   static constexpr std::int64_t kFrames = 24;
@@ -80,7 +80,7 @@ TEST(TrackRecording, GivesFramesInOrderWithProgressAndTimes) {
   std::vector<std::string> stages;
   for (const StageTimes::Summary& stage : times.Summarize()) {
     stages.push_back(stage.stage);
-    // The end of the recording is read as well.
+    // The end of the recording counts as a read too.
     EXPECT_EQ(stage.runs, stage.stage == "read" ? 25U : 24U) << stage.stage;
   }
   EXPECT_EQ(stages, (std::vector<std::string>{"track", "measure", "read"}));

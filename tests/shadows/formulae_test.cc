@@ -8,8 +8,7 @@
 
 namespace pleinair::shadows {
 namespace glsl {
-using namespace glm;  // NOLINT(google-build-using-namespace): what the shader language has built
-                      // in.
+using namespace glm;  // GLSL's built-in names.
 #include "shadows/shaders/shadow_formulae.glsl"
 }  // namespace glsl
 
@@ -25,7 +24,7 @@ TEST(VogelDisc, SpreadsEvenlyOverTheDisc) {
     second += p * p / static_cast<double>(kPoints);
   }
   EXPECT_LT(glm::length(mean), 0.02);
-  EXPECT_NEAR(second.x, 0.25, 0.01);  // Of a uniform disc: ρ²/4 an axis.
+  EXPECT_NEAR(second.x, 0.25, 0.01);  // Variance of a uniform disc: ρ²/4 per axis.
   EXPECT_NEAR(second.y, 0.25, 0.01);
 }
 
@@ -40,8 +39,8 @@ TEST(ShadowBoxShares, AddUpToTheBoxWhereverItLies) {
         mean += offset * shares.x + (offset + 1.0F) * shares.y;
       }
       EXPECT_NEAR(sum, 2.0F * k, 1e-5);
-      // Texels are shared as a whole: their mean lies where the box does but for what a texel
-      // hides.
+      // Texels are weighted by overlap. Their mean equals the box's except for variation within a
+      // texel.
       EXPECT_LT(std::abs(mean / sum), 0.13) << k << ' ' << place;
     }
   }
@@ -57,8 +56,8 @@ TEST(ShadowWidestKernel, IsTheOneThatWindowsLeaveRoomFor) {
   }
 }
 
-// A metre of height is 4.65 mm of the disc's radius: a tenth of that counts, a wall's foot does
-// not.
+// At a height of one metre the disc's radius is 4.65 mm. A blocker must reach a tenth of that; a
+// wall's foot does not.
 TEST(ShadowMinHeight, TellsBlockersFromAWallsFoot) {
   const float tan_radius = std::tan(glm::radians(0.2665F));
   EXPECT_LT(glsl::ShadowMinHeight(0.00465F, tan_radius), 0.11F);
@@ -66,8 +65,8 @@ TEST(ShadowMinHeight, TellsBlockersFromAWallsFoot) {
   EXPECT_EQ(glsl::ShadowMinHeight(-0.01F, tan_radius), 0.0F);
 }
 
-// A wall in the sun stands beside the receiver: what a pixel covers of it rises by cot of the sun's
-// distance from the zenith, less than 3 down to 18°, and shades nothing. What rises more does.
+// A sunlit wall beside the receiver: within a pixel its height rises by cot of the sun's zenith
+// distance. That is less than 3 down to 18° and is not a blocker. A steeper rise is one.
 TEST(ShadowMinHeight, OfWhatThePixelAloneCoversPassesOverALitWallsFoot) {
   const float tan_radius = std::tan(glm::radians(0.2665F));
   for (const float pixel_m : {0.001F, 0.02F}) {
@@ -77,7 +76,7 @@ TEST(ShadowMinHeight, OfWhatThePixelAloneCoversPassesOverALitWallsFoot) {
       EXPECT_GT(min_m, 2.9F * away_m);
       EXPECT_LT(min_m, 3.1F * away_m);
     }
-    // Beyond the pixel the disc decides, as everywhere.
+    // Beyond the pixel's footprint the usual disc criterion applies.
     EXPECT_EQ(glsl::ShadowMinHeightSought(pixel_m + 0.01F, pixel_m, tan_radius),
               glsl::ShadowMinHeight(pixel_m + 0.01F - pixel_m, tan_radius));
   }
@@ -101,7 +100,7 @@ TEST(ShadowRise, IsThePlanesOwnAndFromASunOfOneDegreeDownNoMore) {
   float most = 0.0F;
   for (float elevation = 89.0F; elevation > 0.31F; elevation *= 0.98F) {
     const float facing = std::sin(glm::radians(elevation));
-    const float slope = std::cos(glm::radians(elevation)) / facing;  // Texels a texel.
+    const float slope = std::cos(glm::radians(elevation)) / facing;  // Texels per texel.
     const float rise = glsl::ShadowRise(slope, facing);
     EXPECT_LE(rise, slope * 1.0001F) << elevation;
     if (elevation > 1.15F) {
@@ -121,7 +120,7 @@ TEST(NormalCdf, IsWithinThePublishedErrorOfItsFit) {
 }
 
 TEST(GaussianVisibility, IsOneOnALitSurface) {
-  // The paper's 1 − Φ would give ½ here.
+  // The paper's 1 − Φ gives ½ here.
   EXPECT_NEAR(glsl::GaussianVisibility(0.3F, 0.3F, 1e-6F), 1.0F, 1e-6F);
   EXPECT_EQ(glsl::GaussianVisibility(0.2F, 0.3F, 1e-6F), 1.0F);
   EXPECT_NEAR(glsl::GaussianVisibility(0.5F, 0.3F, 1e-4F), 0.0F, 1e-6F);
@@ -140,7 +139,7 @@ TEST(MomentVisibility, OfTwoPlanesHasTheMeasuredErrors) {
   EXPECT_NEAR(glsl::GaussianVisibility(1.0F, 0.1F, 0.09F), 0.003F, 1e-3F);
 }
 
-// Lauritzen's linear step: nothing below the amount, full light kept.
+// Lauritzen's linear step removes all light below the amount and keeps full light.
 TEST(ReduceBleeding, CutsTheTailAndKeepsFullLight) {
   EXPECT_EQ(glsl::ReduceBleeding(0.25F, 0.25F), 0.0F);
   EXPECT_EQ(glsl::ReduceBleeding(0.1F, 0.25F), 0.0F);
@@ -149,8 +148,8 @@ TEST(ReduceBleeding, CutsTheTailAndKeepsFullLight) {
   EXPECT_EQ(glsl::ReduceBleeding(0.3F, 0.0F), 0.3F);
 }
 
-// A covered receiver at b beneath occluders at 0 and a in equal shares: where the variance map
-// leaks 1/(1 + ((2b − a)/a)²), the warp over the range [0, 3a] leaves next to nothing.
+// A receiver at depth b beneath occluders at 0 and a in equal shares. The variance map leaks 1/(1 +
+// ((2b − a)/a)²); the warp over the range [0, 3a] leaks almost nothing.
 TEST(ShadowWarp, StopsTheLeakOfStackedOccluders) {
   const float a = 1.0F / 3.0F, b = 1.25F * a;
   const float mean = 0.5F * a, variance = 0.25F * a * a;

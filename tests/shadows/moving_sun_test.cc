@@ -1,4 +1,4 @@
-// Shadows while the sun moves: steps, and the fade from one to the next.
+// Tests shadows under a moving sun: steps, and the cross-fade between them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kStep = 0.02 * kRadiansPerDegree;
 
-// A sun that turns about the pole of 50° north, as `hours` pass.
+// The sun's diurnal motion at latitude 50° north, after `hours`.
 glm::dvec3 DailySun(double hours) {
   const double turn = 15.0 * kRadiansPerDegree * hours, latitude = 50.0 * kRadiansPerDegree;
   const double declination = 20.0 * kRadiansPerDegree;
@@ -28,16 +28,16 @@ TEST(SunSteps, HoldTheSunBetweenTwoOfThemAllDay) {
   glm::dvec3 from(0.0), to(0.0);
   int changes = 0;
   double last_share = 0.0;
-  // Frames of a twentieth of a second for a quarter of an hour.
+  // A quarter of an hour in intervals of a twentieth of a second.
   for (int frame = 0; frame < 18000; ++frame) {
     const glm::dvec3 sun = DailySun(-3.0 + frame / 72000.0);
     const SunStep& step = steps.Follow(sun);
     ASSERT_GE(step.share, 0.0);
     ASSERT_LE(step.share, 1.0);
-    // Where the fade has the sun, it is.
+    // The cross-fade's mean position is the sun's.
     ASSERT_LT(glm::distance(sun, glm::mix(step.from, step.to, step.share)), 1e-3 * kStep) << frame;
     if (step.from != from) {
-      // The step ahead becomes the one behind: its maps are there already.
+      // The next step becomes the previous one: its maps exist already.
       if (frame > 1) {
         ASSERT_EQ(step.from, to);
         ASSERT_GT(last_share, 0.98);
@@ -68,7 +68,7 @@ TEST(SunSteps, KeepTheStepBehindWhereTheSunTurnsBack) {
   for (int i = 0; i <= 20; ++i) steps.Follow(DailySun(1e-5 * i));
   for (int i = 20; i >= -20; --i) {
     const SunStep& step = steps.Follow(DailySun(1e-5 * i));
-    EXPECT_NEAR(glm::distance(step.from, DailySun(0.0)), 0.0, 1e-15);  // Rounding apart.
+    EXPECT_NEAR(glm::distance(step.from, DailySun(0.0)), 0.0, 1e-15);  // Apart from rounding.
     EXPECT_NEAR(glm::distance(DailySun(1e-5 * i), glm::mix(step.from, step.to, step.share)), 0.0,
                 1e-3 * kStep);
   }
@@ -90,14 +90,14 @@ class MovingSun : public ShadowScene {
   Box focus_;
 };
 
-// While maps are drawn anew at every step, a shadow's edge jumps at once as far as the sun moves in
-// a step, and the stairs of its texels with it; the fade spreads that over many frames.
+// If the maps are redrawn at every step, a shadow edge and its texel stairs jump by the sun's
+// motion in a step. The cross-fade spreads that over many frames.
 TEST_F(MovingSun, MovesShadowsWithoutAJump) {
   auto fading = FadingShadowMaps::Create(options_);
   auto stepped = ShadowMaps::Create(options_);
   ASSERT_TRUE(fading.has_value() && stepped.has_value());
   const auto casters = Casters();
-  constexpr int kFramesAStep = 144;  // The sun at 30 frames a second.
+  constexpr int kFramesAStep = 144;  // The sun at 30 frames per second.
   std::vector<float> last, last_stepped;
   float worst = 0.0F, worst_stepped = 0.0F, far = 0.0F;
   int redrawn = 0;
@@ -114,7 +114,7 @@ TEST_F(MovingSun, MovesShadowsWithoutAJump) {
       for (std::size_t i = 0; i < exact.size() && frame > 0; ++i) {
         worst_stepped = std::max(worst_stepped, std::abs(exact[i] - last_stepped[i]));
       }
-      // At the steps themselves nothing is mixed.
+      // At the steps themselves only one set contributes.
       for (std::size_t i = 0; i < exact.size(); ++i)
         far = std::max(far, std::abs(exact[i] - now[i]));
       last_stepped = exact;
@@ -131,7 +131,7 @@ TEST_F(MovingSun, MovesShadowsWithoutAJump) {
             1.2F * worst_stepped / static_cast<float>(kFramesAStep * FadingShadowMaps::kFadeShare));
   EXPECT_LT(worst, 1.0F / 255.0F);
   EXPECT_LT(far, 0.02F);
-  // One step further, drawn once into both partitions; nothing else moved.
+  // One step later: drawn once into both partitions; nothing else has moved.
   EXPECT_EQ(redrawn, 2);
 }
 

@@ -1,4 +1,4 @@
-// The tables of docs/measurements/shadows.md, against closed forms and traced rays.
+// Tests the tables of docs/measurements/shadows.md against closed forms and traced rays.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ double StraightEdge(double u) {
 
 class ShadowAccuracy : public ShadowScene {};
 
-// 9.3 mm of penumbra a metre of height. Tolerance: 48 taps and the map's texels.
+// The penumbra is 9.3 mm per metre of height. Tolerance: 48 taps and the map's texels.
 TEST_F(ShadowAccuracy, OfAStraightEdgeIsCloseToTheClosedForm) {
   std::printf("\nstraight edge, sun overhead, maps of 2048^2\n| height | RMSE | worst |\n");
   for (const double height : {0.5, 1.0, 2.0, 5.0}) {
@@ -49,8 +49,8 @@ TEST_F(ShadowAccuracy, OfAStraightEdgeIsCloseToTheClosedForm) {
     const double rmse = std::sqrt(sum / (plane.width * plane.height));
     std::printf("| %.1f m | %.3f | %.3f |\n", height, rmse, worst);
     EXPECT_LT(rmse, 0.01) << "height " << height;
-    // Measured 0.029. A single point may move by some thousandths where a renderer rounds
-    // otherwise: one of at least twenty looks weighs up to 0.05.
+    // Measured 0.029. One point may differ by some thousandths because renderers round differently:
+    // one of at least twenty samples weighs up to 0.05.
     EXPECT_LT(worst, 0.035) << "height " << height;
   }
 }
@@ -81,7 +81,7 @@ TEST_F(ShadowAccuracy, OfTheSunsDiscIsBetterThanThatOfMoments) {
   for (const double elevation : {18.0, 43.0, 70.0}) {
     const glm::dvec3 to_sun = SunAt(200, elevation);
     const std::vector<float> truth = Truth(plane, to_sun, 128);
-    Errors of_sun_disc;  // At the moments' resolution.
+    Errors of_sun_disc;  // At the resolution of the moments.
     for (const Variant& variant : kVariants) {
       ShadowMapOptions options;
       options.method = variant.method;

@@ -25,7 +25,7 @@ class ShadowMapsTest : public ShadowScene {
     focus_.Include({-0.2, -0.2, 0});
     focus_.Include({0.2, 0.2, 0.5});
   }
-  // A camera 3 m away that looks down at the origin, moved sideways by `shift_m`.
+  // A camera 3 m away, looking at the origin, shifted sideways by `shift_m`.
   static View CameraView(double shift_m) {
     View view;
     const glm::dmat4 gl_view =
@@ -49,7 +49,8 @@ TEST_F(ShadowMapsTest, AreRedrawnOnlyWhenSomethingMoved) {
   EXPECT_EQ(*maps->UpdateForRegion(casters, AsDirection(sun_), focus_), 2);
   EXPECT_EQ(*maps->UpdateForRegion(casters, AsDirection(sun_), focus_), 0);
   EXPECT_EQ(*maps->UpdateForRegion(casters, AsDirection(SunAt(200.5, 40)), focus_), 2);
-  // The box lies whole in the finest map (Eq. 14): the wide one need not be drawn when it turns.
+  // The finest map contains the whole box (Eq. 14): the wide map need not be redrawn when the box
+  // turns.
   casters[1].marker_from_model = glm::rotate(glm::dmat4(1.0), 0.1, glm::dvec3(0, 0, 1));
   EXPECT_EQ(*maps->UpdateForRegion(casters, AsDirection(SunAt(200.5, 40)), focus_), 1);
   ++casters[0].revision;
@@ -73,7 +74,7 @@ TEST_F(ShadowMapsTest, FittedToTheViewFollowItInWholeTexels) {
   }
 }
 
-// Mountains on the horizon must not make the nearest map coarse.
+// Mountains on the horizon must not reduce the nearest map's resolution.
 TEST_F(ShadowMapsTest, FittedToTheViewKeepTheirTexelsInASceneOfKilometres) {
   options_.partitions = 4;
   auto maps = ShadowMaps::Create(options_);
@@ -83,7 +84,7 @@ TEST_F(ShadowMapsTest, FittedToTheViewKeepTheirTexelsInASceneOfKilometres) {
   AddBox({-9000, 7000, 0}, {9000, 9000, 1500});
   ASSERT_TRUE(maps->UpdateForView(Casters(), AsDirection(sun_), CameraView(0.0)).has_value());
   const glm::vec4 with_mountains = maps->uniforms().slices[0].size;
-  // A third of what is seen, and a step of 2^¼ beyond it.
+  // A third of the visible extent, plus a step of 2^¼.
   EXPECT_LT(with_mountains.x, 1.6F * alone.x);
   EXPECT_LT(with_mountains.y, 1.6F * alone.y);
 }
@@ -96,7 +97,7 @@ TEST_F(ShadowMapsTest, OfSeveralPartitionsAgreeWhereTheyMeet) {
   ASSERT_TRUE(maps.has_value());
   ASSERT_TRUE(
       maps->UpdateForView(Casters(), AsDirection(SunAt(270, 50)), CameraView(0.0)).has_value());
-  // A strip along the shadow's axis: dark from end to end, whichever map it is looked up in.
+  // A strip along the shadow's axis is dark from end to end in every map.
   const double offset = 1.0 / std::tan(50 * kRadiansPerDegree);
   const ProbePlane inside{{offset - 0.1, -1.5, 0}, {0.01, 0, 0}, {0, 0.01, 0}, 20, 500};
   const std::vector<float> dark = Visibility(*maps, inside);
@@ -104,7 +105,7 @@ TEST_F(ShadowMapsTest, OfSeveralPartitionsAgreeWhereTheyMeet) {
   const ProbePlane outside{{offset + 0.65, -1.5, 0}, {0.01, 0, 0}, {0, 0.01, 0}, 20, 500};
   const std::vector<float> lit = Visibility(*maps, outside);
   EXPECT_EQ(*std::min_element(lit.begin(), lit.end()), 1.0F);
-  // Along the edge the visibility is about ½ and must not jump at a seam by more than the coarser
+  // Along the edge the visibility is about ½. A jump at a seam must not exceed what the coarser
   // map's texel explains.
   const ProbePlane edge{{offset + 0.6 - 0.0005, -1.5, 0}, {0.001, 0, 0}, {0, 0.01, 0}, 1, 500};
   const std::vector<float> half = Visibility(*maps, edge);
@@ -137,7 +138,7 @@ TEST_F(ShadowMapsTest, RefuseOptionsOutOfRange) {
   const auto odd = ShadowMaps::Create(options_);
   ASSERT_FALSE(odd.has_value());
   EXPECT_THAT(odd.error().Message(), HasSubstr("power of two"));
-  // Methods without a pyramid have nothing to halve.
+  // Methods without a pyramid accept any size.
   options_.method = ShadowMethod::kGaussian;
   EXPECT_TRUE(ShadowMaps::Create(options_).has_value());
   options_.resolutions[1] = 9000;

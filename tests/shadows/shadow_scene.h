@@ -14,7 +14,7 @@
 
 namespace pleinair::shadows {
 
-/// A square patch of points, marker coordinates: origin + (column + ½) du + (row + ½) dv.
+/// A rectangular grid of points, marker coordinates: origin + (column + ½) du + (row + ½) dv.
 struct ProbePlane {
   glm::dvec3 origin{0.0};
   glm::dvec3 du{0.0}, dv{0.0};
@@ -24,14 +24,14 @@ struct ProbePlane {
   glm::dvec3 At(int x, int y) const { return origin + du * (x + 0.5) + dv * (y + 0.5); }
 };
 
-/// Scenes of axis-aligned boxes and parallelograms, with the visibility that the maps give and the
-/// true one, by rays to the sun's disc.
+/// Scenes of axis-aligned boxes and parallelograms. Computes the visibility from the maps and the
+/// true one by rays to the sun's disc.
 class ShadowScene : public gl::GlTest {
  protected:
-  /// Adds a solid box, or a parallelogram (never casts on itself).
+  /// Adds a solid box, or a parallelogram (which never shades itself).
   void AddBox(const glm::dvec3& low, const glm::dvec3& high);
   void AddQuad(const glm::dvec3& corner, const glm::dvec3& a, const glm::dvec3& b);
-  /// A ground of 16 m × 16 m around the origin.
+  /// A ground of 16 m × 16 m centred at the origin.
   void AddGround() { AddQuad({-8, -8, 0}, {16, 0, 0}, {0, 16, 0}); }
   std::vector<ShadowCaster> Casters() const;
   Box Bounds() const;
@@ -40,13 +40,13 @@ class ShadowScene : public gl::GlTest {
     triangles_.clear();
   }
 
-  /// Maps of the scene drawn for `focus` and a sun in that direction.
+  /// Draws the maps of the scene for `focus` and a sun direction.
   ShadowMaps Region(const glm::dvec3& to_sun, const Box& focus,
                     const ShadowMapOptions& options = {}) const;
-  /// Visibility from the maps at each point of the plane.
+  /// Visibility from the maps at each point of the grid.
   std::vector<float> Visibility(const ShadowMaps& maps, const ProbePlane& plane);
   std::vector<float> Visibility(const FadingShadowMaps& maps, const ProbePlane& plane);
-  /// The same by `rays` rays to a uniform disc.
+  /// The same with `rays` rays to a uniform disc.
   std::vector<float> Truth(const ProbePlane& plane, const glm::dvec3& to_sun, int rays = 256) const;
 
  private:
@@ -65,7 +65,7 @@ class ShadowScene : public gl::GlTest {
   std::vector<Triangle> triangles_;
 };
 
-/// Towards the sun from its azimuth (from +y, towards +x) and elevation.
+/// Direction to the sun from azimuth (from +y, towards +x) and elevation.
 glm::dvec3 SunAt(double azimuth_deg, double elevation_deg);
 Direction<Marker> AsDirection(const glm::dvec3& v);
 

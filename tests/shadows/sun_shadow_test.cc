@@ -20,7 +20,7 @@ Box Around(const glm::dvec3& low, const glm::dvec3& high) {
 
 class SunShadow : public ShadowScene {};
 
-/// Every method as it is commonly used, and every filter of the sun's disc.
+/// Every method with its common options, and every filter of the sun's disc.
 std::vector<ShadowMapOptions> EveryMethodAndFilter(int resolution) {
   std::vector<ShadowMapOptions> every;
   for (const ShadowMethodTraits& traits : ShadowMethods()) {
@@ -56,7 +56,7 @@ TEST_F(SunShadow, LeavesALitPlaneFullyLitByEveryMethod) {
   }
 }
 
-// A board a metre up, far from its edges: what the kernels reach is dark whole.
+// A board one metre up, far from its edges: points are dark over the kernel's whole reach.
 TEST_F(SunShadow, IsDarkBeneathABoardByEveryMethod) {
   AddGround();
   AddQuad({-1.5, -1.5, 1.0}, {3, 0, 0}, {0, 3, 0});
@@ -68,7 +68,7 @@ TEST_F(SunShadow, IsDarkBeneathABoardByEveryMethod) {
   }
 }
 
-// The kernel's width alone tells them apart: a box of n texels is n times as wide as one texel.
+// The methods differ only by kernel width: a box of n texels is n times as wide as one texel.
 TEST_F(SunShadow, OfPercentageCloserFilteringFadesOverItsBox) {
   AddGround();
   AddQuad({-1.0, -1.0, 0.2}, {1, 0, 0}, {0, 2, 0});
@@ -81,16 +81,16 @@ TEST_F(SunShadow, OfPercentageCloserFilteringFadesOverItsBox) {
     const ProbePlane line{{-0.5, 0.0, 0}, {0.001, 0, 0}, {0, 0.001, 0}, 1000, 1};
     double soft = 0.0;
     for (const float v : Visibility(maps, line)) soft += v > 0.0F && v < 1.0F ? 0.001 : 0.0;
-    EXPECT_NEAR(soft / texel, side + 0.5, 0.6) << side;  // Half a texel less to one more.
+    EXPECT_NEAR(soft / texel, side + 0.5, 0.6) << side;  // Between half a texel less and one more.
   }
 }
 
 TEST_F(SunShadow, HasNoAcneOnTheSunnySidesOfABox) {
   AddGround();
   AddBox({-0.2, -0.2, 0}, {0.2, 0.2, 0.5});
-  const glm::dvec3 to_sun = SunAt(200, 30);  // Low y and low x are the sunny sides.
+  const glm::dvec3 to_sun = SunAt(200, 30);  // The sunlit sides have low y and low x.
   const ShadowMaps maps = Region(to_sun, Around({-0.2, -0.2, 0}, {0.2, 0.2, 0.5}));
-  // A millimetre away from the foot, where the ground's texels meet the wall's.
+  // A millimetre from the foot, where the texels of ground and wall meet.
   const ProbePlane south{
       {-0.199, -0.2, 0.005}, {0.00199, 0, 0}, {0, 0, 0.00247}, 200, 200, {0, -1, 0}};
   const ProbePlane west{
@@ -109,7 +109,7 @@ TEST_F(SunShadow, BeginsWithinTwoMillimetresOfTheContact) {
   AddGround();
   AddBox({-0.2, -0.2, 0}, {0.2, 0.2, 0.5});
   for (const double elevation : {18.0, 43.0, 65.0}) {
-    const glm::dvec3 to_sun = SunAt(180, elevation);  // The shadow lies towards +y.
+    const glm::dvec3 to_sun = SunAt(180, elevation);  // The shadow points to +y.
     const ShadowMaps maps = Region(to_sun, Around({-0.2, -0.2, 0}, {0.2, 0.2, 0.5}));
     const ProbePlane plane{{-0.15, 0.2, 0}, {0.003, 0, 0}, {0, 0.0001, 0}, 100, 100};
     const std::vector<float> result = Visibility(maps, plane);
@@ -140,7 +140,7 @@ TEST_F(SunShadow, EndsWhereTheGeometrySays) {
   }
 }
 
-// Where a lower occluder covers the receiver, a higher one must not let light in.
+// If a lower occluder covers the receiver, a higher one must not cause light to leak in.
 TEST_F(SunShadow, DoesNotLeakBetweenTwoOccluders) {
   AddGround();
   AddQuad({-0.5, -0.5, 0.4}, {1, 0, 0}, {0, 1, 0});

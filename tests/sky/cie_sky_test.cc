@@ -22,8 +22,8 @@ constexpr Direction<World> kZenith{{0.0, 0.0, 1.0}};
 
 constexpr std::array<double, 4> kElevations = {15.0, 30.0, 45.0, 60.0};
 
-// Luminance of the zenith over horizontal illuminance, integrated independently from the
-// standard's parameters and cross-checked in two published test tables.
+// Zenith luminance over horizontal illuminance, integrated independently from the standard's
+// parameters. Cross-checked with two published test tables.
 constexpr std::array<std::array<double, 4>, 15> kZenithOverIlluminance = {{
     {.4082, .4082, .4082, .4082},
     {.3757, .3911, .4231, .4794},

@@ -23,7 +23,7 @@ SunPosition SunAt(double elevation_deg, double azimuth_deg = 135.0, double dista
 constexpr SkyCondition kConditions[] = {SkyCondition::kClear, SkyCondition::kHazy,
                                         SkyCondition::kPartlyCloudy, SkyCondition::kOvercast};
 
-/// The skies of a condition, made once for all tests.
+/// The skies of a condition, computed once for all tests.
 const SkySource& SkiesOf(SkyCondition condition) {
   static std::map<SkyCondition, std::shared_ptr<const SkySource>> skies;
   std::shared_ptr<const SkySource>& source = skies[condition];
@@ -88,7 +88,7 @@ TEST(Daylight, IsContinuousFromNoonToNight) {
     for (double elevation = 29.5; elevation > -20.0;
          elevation -= elevation > 3.0 || elevation < -8.0 ? 0.5 : 0.1) {
       const Share now = Measure(*Light(elevation, condition));
-      // Deep in twilight the light falls by 13 % in 0.1°.
+      // In deep twilight the light falls by 13 % in 0.1°.
       const double most = elevation < -8.0 ? 0.8 : 0.15;
       ASSERT_NEAR(now.sky_klx, last.sky_klx, most * last.sky_klx) << elevation;
       ASSERT_LE(now.sun_normal_klx, last.sun_normal_klx) << elevation;
@@ -115,8 +115,8 @@ TEST(Daylight, HasAWarmLowSunAndABlueSky) {
 }
 
 TEST(Daylight, IsWhiteAtNoonFromSunAndSkyTogether) {
-  // CIE D55: daylight of a high sun with its sky, 5500 K; x = 0.3324, y = 0.3474 is
-  // linear Rec.709 (1.10, 0.99, 0.77)…, D65 is (1, 1, 1). Together they lie between.
+  // CIE D55, daylight of a high sun with its sky, has 5500 K. Its x = 0.3324, y = 0.3474 is linear
+  // Rec.709 (1.10, 0.99, 0.77)…; D65 is (1, 1, 1). The sum lies between them.
   const auto light = Light(50.0, SkyCondition::kClear);
   const LinearRgb sum =
       light->SunNormalIrradiance() * light->ToSun().xyz.z + light->SkyHorizontalIrradiance();
@@ -138,7 +138,7 @@ TEST(OvercastSky, HasNoColor) {
   EXPECT_NEAR(sky.b / sky.g, 1.0, 1e-12);
 }
 
-// IES RP-21, evaluated independently.
+// IES RP-21, calculated independently.
 TEST(StandardIlluminance, HasTheFiguresOfTheIes) {
   struct Row {
     SkyCondition condition;

@@ -36,7 +36,7 @@ TEST(PerezSky, HasThePublishedZenith) {
   EXPECT_NEAR(zenith.x, x, 1e-12);
 }
 
-// Horizontal illuminances of the same coefficients integrated independently (klx).
+// Horizontal illuminances of the same coefficients, integrated independently (klx).
 TEST(PerezSky, HasItsKnownIlluminances) {
   struct Row {
     double elevation_deg, t2, t25, t3, t6;

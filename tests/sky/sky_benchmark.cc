@@ -35,7 +35,7 @@ std::unique_ptr<SkyModel> Sky(SkyModelName name) {
   return *CreateSkyModel(name, {}, SunAt(40.0), 1.0);
 }
 
-/// Radiance in directions that walk over the whole dome.
+/// Radiance in directions over the whole dome.
 void LookUpRadiance(benchmark::State& state, SkyModelName name) {
   const auto sky = Sky(name);
   benchmark::DoNotOptimize(sky->SkyHorizontalIrradiance());
@@ -52,7 +52,7 @@ BENCHMARK_CAPTURE(LookUpRadiance, perez, kPerez);
 BENCHMARK_CAPTURE(LookUpRadiance, cie12, kCie12);
 BENCHMARK_CAPTURE(LookUpRadiance, atmosphere, kAtmosphere);
 
-/// Everything that depends on the air alone.
+/// All tables that depend only on the air.
 void BuildTables(benchmark::State& state) {
   for (auto _ : state) {
     benchmark::DoNotOptimize(AtmosphereTables(AerosolOfTurbidity(kDefaultTurbidity), 0.15));
@@ -72,7 +72,7 @@ void MoveSun(benchmark::State& state) {
 }
 BENCHMARK(MoveSun)->Unit(benchmark::kMillisecond);
 
-/// The sun's light alone, as a moving shadow needs it in every frame.
+/// Only the sun's light, as a moving shadow needs it in every frame.
 void MoveSunAlone(benchmark::State& state) {
   const auto source = *SkySource::Create(kAtmosphere, {});
   double elevation = 5.0;

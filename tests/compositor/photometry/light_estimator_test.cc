@@ -1,4 +1,4 @@
-// What is concluded from frames, and what is not.
+// Tests which conclusions the light estimator draws from frames, and which it must not draw.
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,8 @@ const PhotographedYard& Yard() {
   return yard;
 }
 
-/// What a sunny yard tells where the scene has the sun `off_deg` beside its place.
+/// Light estimate from a sunny yard whose scene description places the sun `off_deg` off its true
+/// azimuth.
 LightEstimate Estimate(double off_deg, const PhotographedYard::Light& light,
                        const LightOverrides& overrides = {},
                        const char* said_time = "2025-09-14T13:50:00Z") {
@@ -59,7 +60,7 @@ TEST(LightEstimator, SeesThatNoSunShines) {
 }
 
 TEST(LightEstimator, SeesByPlanesThatNoSunShinesWhereAllLiesBehindAWall) {
-  // The scene's sun stands low behind the yard's wall: hardly an edge of a shadow is in view.
+  // The described sun is low behind the yard's wall: hardly any shadow edge is visible.
   const auto settle = [](const PhotographedYard::Light& light) {
     return Estimate(245.0, light, {}, "2025-09-14T16:45:00Z");
   };
@@ -68,12 +69,12 @@ TEST(LightEstimator, SeesByPlanesThatNoSunShinesWhereAllLiesBehindAWall) {
   EXPECT_EQ(veiled.measured.sun_source, MeasuredLight::Source::kMeasured);
   ASSERT_NE(veiled.skies.source, nullptr);
   EXPECT_EQ(veiled.skies.source->ForSun({{0, 0, 1}}, 1.0)->SunNormalIrradiance().g, 0.0);
-  // Under a sun that stands elsewhere planes are not lit as by clouds either.
+  // Under a sun in another direction the planes do not look overcast either.
   EXPECT_EQ(settle({}).measured.sun_source, MeasuredLight::Source::kDescription);
 }
 
 TEST(LightEstimator, SeesByStatedColorsThatNoSunShinesWherePlanesOfOneMaterialDoNotTell) {
-  // Beside the wall, in view of another part of the sky.
+  // Beside the wall, which faces another part of the sky.
   const auto settle = [](PhotographedYard::Light light) {
     light.colors_as_described = true;
     return Estimate(230.0, light, {}, "2025-09-14T16:45:00Z").measured;
@@ -96,7 +97,7 @@ TEST(LightEstimator, ReadsTheSkyFromTheShadeOfATreeThatHidesAllEdges) {
   EXPECT_GT(hazy.measured.sun_to_sky_error, 0.1);
   ASSERT_NE(hazy.skies.source, nullptr);
   EXPECT_NE(hazy.skies.sun_transmittance, nullptr);
-  // Words that have the sky much fainter beside the sun count for something; less than half.
+  // A description with a much fainter sky influences the estimate, but by less than half.
   const sky::SkyModel& model = yard.model();
   const auto off = [&](const sky::SkySource& skies, LinearRgb scale) {
     const auto day = skies.ForSun(model.ToSun(), 1.0);
@@ -112,7 +113,7 @@ TEST(LightEstimator, ReadsTheSkyFromTheShadeOfATreeThatHidesAllEdges) {
   EXPECT_LT(off(*hazy.skies.source, hazy.skies.scale), 0.5 * stated);
 }
 
-/// A print on bare ground, on which no phantom casts a shadow.
+/// A marker on bare ground without phantom shadows.
 class BareGround {
  public:
   BareGround() {
@@ -122,8 +123,8 @@ class BareGround {
     day_ = SunlitSky(scene_)->ForSun(sun.ToSun(), sun.distance_au);
   }
 
-  /// What frames tell in which the sky is `sky_radiance_scale` times as strong beside the sun as a
-  /// clear day's, and something shades what is within `reach_m` of the print's middle where x is
+  /// Light estimate from frames whose sky-to-sun ratio is `sky_radiance_scale` times that of a
+  /// clear day. An unmodelled shadow covers points within `reach_m` of the marker's centre with x
   /// below `shadow_to_x_m`.
   LightEstimate Estimate(scene::Cloudiness said, double sky_radiance_scale, double shadow_to_x_m,
                          double reach_m = 0.4) const {
@@ -157,7 +158,7 @@ class BareGround {
     return look.Estimate(&light_filter);
   }
 
-  /// How much stronger than the clear day's the sky is that was found, beside the sun.
+  /// Estimated sky-to-sun ratio relative to that of the clear day.
   double SkyScaleOf(const LightEstimate& found) const {
     const auto day = found.skies.source->ForSun(day_->ToSun(), 1.0);
     return SunToSky(*day_) / SunToSky(*day) * found.skies.scale.g;
@@ -189,7 +190,7 @@ TEST(LightEstimator, ReadsTheSkyFromAShadowAcrossTheMarkerThatNoPhantomCasts) {
   };
   expect_told(ground.Estimate(Cloudiness::kClear, kSkyScale, 0.1));
   expect_told(ground.Estimate(Cloudiness::kHazy, kSkyScale, 0.1));
-  // Against words that have no sun the ground must show the shadow as well.
+  // If the description has no sun, the ground must show the shadow too.
   constexpr double kBeyondMarker = 1.5;
   expect_told(ground.Estimate(Cloudiness::kOvercast, kSkyScale, 0.1, kBeyondMarker));
   const auto source = [&](Cloudiness said, double shadow_to_x_m) {
@@ -209,7 +210,7 @@ TEST(LightEstimator, KeepsTheMapUnderAGivenRatio) {
   EXPECT_GT(found.skies.source->ForSun(yard.model().ToSun(), 1.0)->SunNormalIrradiance().g, 0.0);
 }
 
-/// How pixels are asked for shade where the user says of the light what `overrides` has.
+/// Sky state under user-provided light `overrides`; determines the test for unmodelled shadows.
 SkyState GivenSkies(const LightOverrides& overrides, const PhotographedYard::Light& light) {
   const LightEstimate found = Estimate(0.0, light, overrides);
   EXPECT_EQ(found.measured.heading_source, MeasuredLight::Source::kDescription);
@@ -240,7 +241,7 @@ TEST(LightEstimator, AsksUnderAStatedLightForShadeAlone) {
 
 TEST(LightEstimator, AsksForShadeWhereRatioAndHeadingAreGiven) {
   LightOverrides given = SunToSkyOf(3.0);
-  given.heading_deg = 0.0;  // That it is given counts; the scene has it already.
+  given.heading_deg = 0.0;  // Only its presence matters; the scene has the same value.
   EXPECT_FALSE(GivenSkies(given, {}).unmodelled_shadows);
   const auto leaves = [](Vec3 p) { return std::sin(9 * p.x) * std::sin(11 * p.y) > 0.0; };
   const SkyState shaded = GivenSkies(given, {.shaded = leaves});
@@ -249,14 +250,15 @@ TEST(LightEstimator, AsksForShadeWhereRatioAndHeadingAreGiven) {
 }
 
 TEST(LightEstimator, DoubtsNoSunThatIsGiven) {
-  // Elsewhere than the shadows say: doubtful as the words have it, not as the user does.
+  // The shadows contradict the sun's position. The description would be doubtful, the user's value
+  // is not.
   const LightEstimate found = Estimate(60.0, {}, SunToSkyOf(2.0));
   EXPECT_FALSE(found.measured.sun_doubtful);
   EXPECT_EQ(found.skies.sun_transmittance, nullptr);
 }
 
 TEST(LightEstimator, SettlesANightWhoseRatioIsGiven) {
-  // A lamp lights the yard, say, and no ratio makes a sun of one below the horizon.
+  // The yard may be lit by a lamp: no ratio can put the sun above the horizon.
   const PhotographedYard::Light lamp{.sun_scale = 0.0};
   for (const double ratio : {0.0, 2.0}) {
     const LightEstimate found = Estimate(0.0, lamp, SunToSkyOf(ratio), "2025-09-14T23:00:00Z");

@@ -58,7 +58,7 @@ TEST(LightFilter, LeavesToTheWordsWhatNoLookHasToldYet) {
 }
 
 TEST(LightFilter, SmoothsNoise) {
-  // Readings of one and the same, that err to either side.
+  // Estimates of the same value, with errors on both sides.
   LightFilter light_filter;
   double worst_heading_deg = 0.0, worst_log = 0.0;
   for (int minute = 0; minute < 20; ++minute) {

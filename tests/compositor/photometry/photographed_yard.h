@@ -19,8 +19,8 @@
 
 namespace pleinair::compositor::testing {
 
-/// A yard with a wall, a pole and a step on patterned paving, and photographs of it in whatever
-/// light: sky, light among surfaces and the sun's disc, through an 8-bit camera.
+/// A yard with a wall, a pole and a step on patterned paving, and photographs of it by an 8-bit
+/// camera. The light is adjustable: sky, indirect illumination and the sun's disc.
 class PhotographedYard {
  public:
   /// `to_sun`: in marker coordinates.
@@ -46,7 +46,7 @@ class PhotographedYard {
             Phantom(BoxModel({-1.4, 0.3, 0.0}, {-0.5, 0.8, 0.3}, {0.4F, 0.4F, 0.38F}))};
   }
 
-  /// What is known of the day: the model that readings are told in terms of.
+  /// The prior of the day; estimates are relative to this model.
   const sky::SkyModel& model() const { return model_; }
   const Mat3& marker_from_world() const { return marker_from_world_; }
   Vec3 ToSun() const { return marker_from_world_ * model_.ToSun().xyz; }
@@ -54,7 +54,7 @@ class PhotographedYard {
   const CameraModel& camera() const { return camera_; }
   const scene::MarkerReflectance& marker() const { return marker_; }
 
-  /// Whether a place lies within a step of an edge of the phantoms' shadows, on either side.
+  /// True if the point is near a phantom shadow edge, on either side.
   bool IsBesideShadowEdge(Vec3 p) const {
     bool lit = false, shaded = false;
     for (const double reach : {0.0, 0.06, 0.12, 0.2, 0.3, 0.4}) {
@@ -71,16 +71,16 @@ class PhotographedYard {
   struct Light {
     LinearRgb sky_radiance_scale{1.0, 1.0, 1.0};
     double sun_scale = 1.0;
-    /// Whether something that no phantom stands for keeps the sun from a point.
+    /// True where an unmodelled object shades the point.
     std::function<bool(Vec3)> shaded = [](Vec3) { return false; };
-    /// Whether things have the colors that the model states of them, the marker its white;
-    /// otherwise they all have one, patterned.
+    /// If true, surfaces have the model's colors and the marker its white. Otherwise all have the
+    /// same patterned color.
     bool colors_as_described = false;
-    /// How much brighter than that a thing is at a point.
+    /// Factor on the reflectance at a point.
     std::function<double(Vec3)> brighter = [](Vec3) { return 1.0; };
   };
 
-  /// Where the camera stands for picture 0, 1, …
+  /// Camera pose of image 0, 1, …
   static Transform<Camera, Marker> Pose(int picture) {
     const Vec3 eye{-0.8 + 0.5 * picture, -2.6, 1.7 + 0.1 * picture};
     const Vec3 forward = Normalized(Vec3{0.1, 0.4, 0.1} - eye);
@@ -114,7 +114,7 @@ class PhotographedYard {
     return image;
   }
 
-  /// Display-linear value per radiance.
+  /// Linear value per radiance.
   static constexpr double kExposureScale = 2.0e-5;
 
  private:
@@ -123,7 +123,7 @@ class PhotographedYard {
     return {step(p.x), step(p.y), step(p.z)};
   }
 
-  /// Slabs of 0.4 m, each of its own grey, and finer mottling.
+  /// Slabs of 0.4 m in different greys, with finer mottling.
   static LinearRgb Albedo(const PhantomSurface& at) {
     const auto tile = [&](double size) {
       const auto step = [&](double v) {
@@ -145,7 +145,7 @@ class PhotographedYard {
 
   LinearRgb Irradiance(const PhantomSurface& at, const Light& light,
                        const TangentFrame& sun) const {
-    // Ambient light of the nearest vertex that faces the same way.
+    // Ambient light of the nearest vertex with a similar normal.
     const auto bin = Bin(at.point.xyz);
     double least = 1e9;
     LinearRgb ambient;

@@ -1,4 +1,4 @@
-// What the phantoms' own shadows say of the light, on pictures whose light is known.
+// Tests the estimates from the phantoms' own shadows on images with known light.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -25,7 +25,7 @@ void ExpectScale(const SunSkyRatio& estimate, LinearRgb truth) {
   EXPECT_NEAR(estimate.sky_radiance_scale.r / truth.r, 1.0, 0.1);
   EXPECT_NEAR(estimate.sky_radiance_scale.g / truth.g, 1.0, 0.1);
   EXPECT_NEAR(estimate.sky_radiance_scale.b / truth.b, 1.0, 0.1);
-  // It knows how well it knows.
+  // The error must agree with the reported uncertainty.
   EXPECT_LT(std::fabs(std::log(estimate.sky_radiance_scale.g / truth.g)),
             3 * estimate.log_uncertainty);
   EXPECT_LT(estimate.log_uncertainty, 0.15);
@@ -76,7 +76,7 @@ TEST_F(ShadowLight, ReadsCodesByTheCamerasOwnResponse) {
     return Read(samples);
   };
   ExpectScale(read_as(gentle), {1, 1, 1});
-  // Taken for sRGB, whose codes stand for more contrast, the shade is too deep for so much sky.
+  // Decoded as sRGB, whose values imply more contrast, the shadow seems too deep for this sky.
   const SunSkyRatio wrong = read_as({});
   ASSERT_EQ(wrong.sun, SunSkyRatio::Sun::kShines);
   EXPECT_LT(wrong.sky_radiance_scale.g, 0.85);
@@ -85,8 +85,8 @@ TEST_F(ShadowLight, ReadsCodesByTheCamerasOwnResponse) {
 TEST_F(ShadowLight, EstimatesTheSkyFromAShadowAcrossTheMarker) {
   const LinearRgb sun = yard_->model().SunNormalIrradiance() * Dot(kUp, yard_->ToSun());
   const Point<Marker> lit{{0.3, -0.3, 0.0}};
-  // Dark before the wall, which takes of the sky, by something that hides a tenth of it; and behind
-  // the wall, whose own shadow that is.
+  // One shaded point lies before the wall, which occludes part of the sky; an unmodelled object
+  // there hides another tenth. The other point lies behind the wall, in its shadow.
   const Point<Marker> before_wall{{0.1, 1.0, 0.0}}, behind_wall{{0.1, 1.8, 0.0}};
   MarkerShadowEdge shadow;
   for (const auto& [shaded, left] : {std::pair{before_wall, 0.9}, {behind_wall, 1.0}}) {
@@ -134,7 +134,7 @@ TEST_F(ShadowLight, ReportsNothingWhereNoPhantomCastsAShadowInView) {
 TEST_F(ShadowLight, FindsHowFarTheHeadingIsOff) {
   const SurfaceSamples samples = Look({});
   for (const double error_deg : {-7.0, -3.0, 0.0, 3.0}) {
-    // The scene states a heading from which the sun stands so far off its true place.
+    // The scene description has a heading that puts the sun this far off.
     const Vec3 stated = Turned(yard_->model().ToSun().xyz, kUp, FromDegrees(error_deg));
     const auto heading = EstimateHeading(yard_->phantoms(), samples, kUp, stated);
     ASSERT_TRUE(heading) << error_deg;
@@ -154,17 +154,17 @@ TEST_F(ShadowLight, MakesPlanesOfOneMaterialDifferWhereverShadowsFall) {
     for (const int i : {0, 1}) {
       samples.AddFrame(yard.Photograph(i, light).view(), PhotographedYard::Pose(i), {1, 1, 1});
     }
-    // The overcast sky's model has no sun.
+    // The overcast sky model has no sun.
     const testing::UniformDay overcast({3000, 4200, 6500}, {}, yard.model().ToSun().xyz);
     return TestForOvercast(yard.phantoms(), samples, overcast, Mat3{}).within;
   };
   const double veiled = contrast(*yard_, {.sky_radiance_scale = {3, 3, 3}, .sun_scale = 0.0});
   EXPECT_LT(veiled, 0.3);
-  // This sun lights tops and the sides in view nearly alike: more than none does, too little to
-  // doubt an overcast sky (compositor/photometry/light_estimator.cc: 0.6).
+  // This sun lights tops and visible sides almost equally. The contrast exceeds that without a sun,
+  // but is too small to reject an overcast sky (compositor/photometry/light_estimator.cc: 0.6).
   EXPECT_GT(contrast(*yard_, {}), veiled + 0.2);
   EXPECT_LT(contrast(*yard_, {}), 0.6);
-  // High over the yard, or behind what is in view, it is told.
+  // A sun high over the yard, or behind the visible surfaces, is detected.
   EXPECT_GT(contrast(PhotographedYard({-0.2, 0.3, 0.9}), {}), 0.6);
 }
 
@@ -175,7 +175,7 @@ TEST_F(ShadowLight, MakesPlanesOfSeveralMaterialsDifferFromTheirStatedColors) {
     SurfaceSamples samples(yard.phantoms(), yard.camera(), yard.marker());
     samples.AddFrame(yard.Photograph(0, light).view(), PhotographedYard::Pose(0), {1, 1, 1});
     const OvercastTest contrast = TestForOvercast(yard.phantoms(), samples, day, Mat3{});
-    // Ground, wall, block and marker; upwards, forwards and sideways.
+    // Ground, wall, block and marker; upward, front and side faces.
     EXPECT_GE(contrast.surfaces, 4);
     EXPECT_GE(contrast.directions, 3);
     return contrast.among;

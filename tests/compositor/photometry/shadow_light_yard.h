@@ -11,7 +11,7 @@
 
 namespace pleinair::compositor::testing {
 
-/// A yard whose light is known, looked at in pictures of it.
+/// A yard with known light, and surface samples from photographs of it.
 class ShadowLight : public ::testing::Test {
  protected:
   static void SetUpTestSuite() { yard_ = new PhotographedYard(); }

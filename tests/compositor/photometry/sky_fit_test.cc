@@ -17,7 +17,7 @@ double Share(const sky::SkyModel& day) {
 }
 
 TEST(SkyWithShare, HasTheShapeOfAnAirWhoseSkyIsThatStrong) {
-  // From a clear day's over haze to a sun behind thin clouds.
+  // From a clear day through haze to a sun behind thin clouds.
   for (const double elevation_deg : {12.0, 60.0}) {
     for (const double share : {0.2, 0.6, 3.0}) {
       const SkyFit sky = SkyWithShare({share, share, share}, Sun(elevation_deg), 1.0);

@@ -1,4 +1,4 @@
-// Blur and grain of a camera's picture, on pictures whose blur and grain are known.
+// Tests the estimates of blur and noise on images with known blur and noise.
 #include "compositor/picture/camera_look.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ constexpr scene::MarkerReflectance kMarker{
     .size_m = 0.4, .board_size_m = 0.52, .black_band_m = 0.05};
 const CameraModel kCamera{
     .width = 400, .height = 300, .fx = 380, .fy = 380, .cx = 199.5, .cy = 149.5};
-// A metre away, askew, so that no edge lies along the pixels.
+// A metre away and oblique, so that no edge is parallel to the pixel grid.
 const Transform<Camera, Marker> kPose = [] {
   const double a = 0.2, t = 0.5;
   const Mat3 roll{{std::cos(a), -std::sin(a), 0, std::sin(a), std::cos(a), 0, 0, 0, 1}};
@@ -34,7 +34,8 @@ struct Photograph {
   double hand_to_x_px = 0.0;
 };
 
-/// The marker on grey ground through a camera: 8 × 8 samples a pixel, Gaussian blur, noise, 8 bits.
+/// The marker on grey ground through a camera: 8 × 8 samples per pixel, Gaussian blur, noise, 8
+/// bits.
 RgbImage Take(const Photograph& how, std::uint32_t seed = 1, const CameraResponse& response = {}) {
   const auto from_camera = kPose.Inverse();
   const auto albedo = [&](Vec3 at) {
@@ -124,7 +125,7 @@ TEST(CameraLook, ReadsTheBlurOffTheMarkersEdges) {
   for (const double blur : {0.0, 0.5, 1.0, 2.0}) {
     const auto look = Measure({.blur_px = blur});
     ASSERT_TRUE(look) << blur;
-    // Of the blur as it was done, pixel by pixel, and the pixel's own width.
+    // The added blur, per pixel, combined with the pixel's own width.
     double variance = 1 / 12.0, weights = 1.0, squares = 0.0;
     for (int i = 1; i <= 6 && blur > 0.0; ++i) {
       const double weight = std::exp(-0.5 * i * i / (blur * blur));
@@ -134,7 +135,7 @@ TEST(CameraLook, ReadsTheBlurOffTheMarkersEdges) {
     variance += squares / weights;
     const double whole = std::sqrt(variance);
     EXPECT_NEAR(look->blur_px, whole, 0.05 + 0.04 * whole) << blur;
-    // A clean picture has no noise, however sharp its edges are.
+    // A noise-free image is reported as such, however sharp its edges are.
     EXPECT_LT(look->NoiseSigma(1, 0.2), 0.0015) << blur;
   }
 }

@@ -9,11 +9,11 @@ namespace {
 
 const CameraModel kSmallCamera{
     .width = 320, .height = 240, .fx = 300, .fy = 300, .cx = 159.5, .cy = 119.5};
-// A metre above a marker of 0.4 m: 120 pixels.
+// A metre above a marker of 0.4 m, which is 120 pixels wide.
 const Transform<Camera, Marker> kFromAMetreAbove{{{1, 0, 0, 0, -1, 0, 0, 0, -1}}, {0, 0, 1}};
 constexpr int kSquares = 12;
 
-/// An arm that comes in from the picture's right edge and ends in the middle of the marker.
+/// An arm from the image's right edge to the marker's centre.
 bool IsArm(int x, int y) { return x > 160 && std::abs(y - 120) < 14; }
 
 struct Scene {

@@ -1,4 +1,4 @@
-// The shader code of glossy reflection compiled as C++.
+// Tests the shader code of glossy reflection, compiled as C++.
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ namespace {
 
 constexpr int kSteps = 400;
 
-/// Mean of a function of direction over the hemisphere about +z, times its solid angle.
+/// Integral of a function of direction over the hemisphere around +z.
 template <typename Function>
 double OverHemisphere(const Function& function) {
   double sum = 0.0;
@@ -36,7 +36,7 @@ double OverHemisphere(const Function& function) {
 }
 
 TEST(Ggx, FacetsCoverTheSurfaceOnce) {
-  // Walter et al. 2007, Eq. (4): seen from above, facets have the surface's own area.
+  // Walter et al. 2007, Eq. (4): the facets' projected area equals that of the macrosurface.
   for (const float alpha : {0.1F, 0.3F, 1.0F}) {
     EXPECT_NEAR(OverHemisphere([&](Vec3 half) {
                   const auto cosine = static_cast<float>(half.z);

@@ -1,4 +1,4 @@
-// Pure shader code compiled as C++ and compared with what it is the twin of.
+// Compares shader code, compiled as C++, with its C++ counterpart.
 
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ using namespace glm;  // NOLINT(google-build-using-namespace): as GLSL has it.
 namespace pleinair::compositor {
 namespace {
 
-/// Even air: e^−kd of a thing's light arrives, and as much of the air's own as it takes away.
+/// Homogeneous air: transmits e^−kd of a surface's light and adds airlight for the rest.
 class EvenAir : public sky::SkyModel {
  public:
   LinearRgb SkyRadiance(Direction<World>) const override { return {}; }
@@ -87,7 +87,7 @@ TEST(AerialFog, OfDifferentPartitionsDoesNotJumpAtTheirSplits) {
       EXPECT_NEAR(Through(fog, at * 0.99999F)[c], Through(fog, at * 1.00001F)[c], 0.5F) << split;
     }
   }
-  // No air in the first partition, twenty times as much in the second.
+  // No air in the first partition, twenty times the density in the second.
   EXPECT_NEAR(Through(fog, 60.0F).r, 1000.0F, 0.1F);
   const double left = std::exp(-EvenAir::kRed * 20.0 * 190.0);
   EXPECT_NEAR(Through(fog, 250.0F).r, 1000.0 * left + EvenAir::kAirlight * (1.0 - left), 60.0);
@@ -160,7 +160,7 @@ TEST(DifferentialRatio, DarkensToTheSkysShareInANewShadow) {
 TEST(DifferentialRatio, NeverDarkensARealShadowTwiceNorLightensIt) {
   const glm::vec3 ambient(20.0F), sun(80.0F);
   EXPECT_EQ(glsl::DifferentialRatio(ambient, ambient, sun, 0.0F, 0.0F), glm::vec3(1.0F));
-  // A shadow map's rounding may claim more sun with the objects than without.
+  // Because of rounding, a shadow map may report more sun with the objects than without.
   EXPECT_EQ(glsl::DifferentialRatio(ambient, ambient, sun, 1.0F, 0.3F), glm::vec3(1.0F));
 }
 
@@ -185,7 +185,7 @@ glm::vec3 LinearRatioSeen(const LinearShadowRatio& linear_ratio, const glm::vec3
 TEST(LinearShadowRatio, IsLinearOverATriangleWhereverItLies) {
   const std::array<glm::vec3, 3> ratios{glm::vec3(0.5F, 0.6F, 0.7F), glm::vec3(0.9F, 0.8F, 1.0F),
                                         glm::vec3(1.1F, 0.95F, 0.75F)};
-  // A hand's breadth, far from the origin and tilted, and a long way off.
+  // A hand's width, tilted and far from the origin, and a large distance.
   for (const glm::vec3& at : {glm::vec3(0.0F), glm::vec3(30.0F, -20.0F, 5.0F)}) {
     const std::array<glm::vec3, 3> corners{at, at + glm::vec3(0.1F, 0.02F, 0.01F),
                                            at + glm::vec3(-0.01F, 0.08F, 0.05F)};
@@ -211,7 +211,7 @@ TEST(LinearShadowRatio, KeepsWithinItsCornersBesideTheTriangle) {
   const std::array<glm::vec3, 3> ratios{glm::vec3(0.5F), glm::vec3(0.9F), glm::vec3(0.7F)};
   const LinearShadowRatio linear_ratio = LinearShadowRatio::Of(corners, ratios);
   const glm::vec3 eye_m(0.0F, 0.0F, 1.0F);
-  // Beside it, along its plane, away from it, and straight up.
+  // Beside the triangle, along its plane, away from it, and straight up.
   for (const glm::vec3& ray : {glm::vec3(5.0F, 0.0F, -1.0F), glm::vec3(1.0F, 0.0F, 0.0F),
                                glm::vec3(-1.0F, 0.0F, 1e-9F), glm::vec3(0.0F, 0.0F, 1.0F)}) {
     const glm::vec3 seen = LinearRatioSeen(linear_ratio, eye_m, ray);
@@ -220,7 +220,7 @@ TEST(LinearShadowRatio, KeepsWithinItsCornersBesideTheTriangle) {
       EXPECT_LE(seen[c], 0.9F);
     }
   }
-  // Three corners on a line.
+  // Three collinear corners.
   const LinearShadowRatio thin =
       LinearShadowRatio::Of({corners[0], corners[1], 2.0F * corners[1]}, ratios);
   EXPECT_NEAR(LinearRatioSeen(thin, eye_m, {0.0F, 0.0F, -1.0F}).x, 0.7F, 1e-6F);
@@ -231,7 +231,7 @@ TEST(TexelCode, KeepsRoughnessAndMetallicApart) {
     for (int k = 0; k <= 15; ++k) {
       const float roughness = static_cast<float>(i) / 127.0F, metallic = static_cast<float>(k) / 15;
       const float code = glsl::CodeOfCoat(roughness, metallic);
-      // Integers up to this are exact in 16 bits.
+      // Integers up to this value are exact in 16 bits.
       EXPECT_LT(code, 2048.0F);
       EXPECT_NEAR(glsl::CoatOfCode(code).x, roughness, 1e-6);
       EXPECT_NEAR(glsl::CoatOfCode(code).y, metallic, 1e-6);
@@ -272,18 +272,19 @@ TEST(TriangleLayout, GivesEachTriangleAndVertexTexelsOfItsOwn) {
 TEST(TriangleLayout, ReportsTheSamplesThatShowATriangle) {
   constexpr unsigned kMax = (1U << glsl::kSamplesShift) - 1U;
   for (const unsigned id : {1U, 70000U, kMax}) {
-    // The first sample brings the number, others of the same sheet their bits alone.
+    // The first sample contributes the id; further samples of the same triangle contribute only
+    // their bits.
     const unsigned seen =
         glsl::VisibleTriangle(id, {0, 0, 1, 0}) + glsl::VisibleTriangle(0U, {1, 0, 0, 1});
     EXPECT_EQ(glsl::IdOf(seen), id);
     EXPECT_EQ(glsl::SamplesOf(seen), glm::vec4(1.0F, 0.0F, 1.0F, 1.0F));
   }
-  // No number of a triangle reaches into the bit that tells an object's from a real surface's.
+  // Triangle ids never use the bit that distinguishes objects from real surfaces.
   EXPECT_LT(kMax, glsl::kObjectBit);
 }
 
-/// Level ground 1.5 m below the eye, 10 m to 20 km ahead; rays of a camera with f = 500 that looks
-/// along +y, `above` pixels above the horizon.
+/// Level ground 1.5 m below the eye, 10 m to 20 km ahead. The camera with f = 500 looks along +y;
+/// the ray is `above` pixels above the horizon.
 glsl::PlaneHit HitGround(float above) {
   const glm::vec3 a(-100.0F, 10.0F, -1.5F), b(100.0F, 10.0F, -1.5F), c(0.0F, 20000.0F, -1.5F);
   return glsl::HitPlane(glm::cross(b - a, c - a), a, b, c, {0.0F, 1.0F, above / 500.0F},
@@ -293,7 +294,7 @@ glsl::PlaneHit HitGround(float above) {
 TEST(PlaneHit, IsWhereTheRayMeetsTheGround) {
   const glsl::PlaneHit hit = HitGround(-10.0F);
   EXPECT_NEAR(hit.along, 75.0F, 1e-3F);
-  // A pixel lower: 1.5 m · 500 / 11.
+  // One pixel lower: 1.5 m · 500 / 11.
   const float next = HitGround(-11.0F).along;
   EXPECT_NEAR(next, 750.0F / 11.0F, 1e-3F);
   EXPECT_NEAR(hit.step_x.x, 75.0F * 0.002F, 1e-4F);
@@ -305,7 +306,7 @@ TEST(PlaneHit, StaysBeforeTheEyeWhereTheRayRunsAboveThePlanesHorizon) {
   for (const float above : {0.0F, 1e-6F, 0.01F, 0.4F, -1e-8F}) {
     const glsl::PlaneHit hit = HitGround(above);
     EXPECT_NEAR(hit.along, 20000.0F, 1.0F) << above;
-    // What one pixel covers there: 20 km / 500.
+    // Footprint of one pixel at that distance: 20 km / 500.
     EXPECT_NEAR(glm::length(hit.step_x), 40.0F, 0.1F) << above;
     EXPECT_NEAR(glm::length(hit.step_y), 40.0F, 0.1F) << above;
   }

@@ -1,6 +1,6 @@
-// Every program is compiled from its source, and the driver has nothing to say about it. A program
-// of its own: Mesa reports warnings only where its cache on disk does not have the shader yet, and
-// reads once per process whether to use that cache.
+// Compiles every program from source and expects no driver messages. This needs its own test
+// program: Mesa reports warnings only for shaders that its disk cache lacks. It reads once per
+// process whether to use that cache.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -32,7 +32,7 @@ class ShaderWarnings : public gl::GlTest {
   }
 };
 
-// As small as maps may be: only their programs count.
+// The smallest valid maps: only their programs matter.
 ShadowMapOptions SmallMaps(shadows::ShadowMethod method) {
   return shadows::CommonOptions(method, 64);
 }
@@ -84,7 +84,7 @@ TEST_F(ShaderWarnings, AreNoneOfPassesAndPicture) {
   }
 }
 
-// Without this, the tests above could pass because nothing is reported.
+// Control: the tests above must not pass because nothing is reported.
 TEST_F(ShaderWarnings, AreReported) {
   ExpectCreated(
       gl::GlProgram::FromText({{GL_FRAGMENT_SHADER,

@@ -14,7 +14,7 @@ namespace {
 
 using ::testing::ElementsAre;
 
-/// Four triangles a metre apart along x, all facing up.
+/// Four triangles at intervals of one metre along x, all facing up.
 LitMesh Row() {
   LitMesh mesh;
   for (std::uint32_t i = 0; i < 4; ++i) {
@@ -30,15 +30,15 @@ LitMesh Row() {
   return mesh;
 }
 
-// A square of 1 m across a sun overhead, from x = 0.9 m on.
+// A square of 1 m perpendicular to a sun overhead, from x = 0.9 m on.
 const SunWindow kWindow{{1.0F, 0.0F, 0.0F, -0.9F}, {0.0F, 1.0F, 0.0F, 0.0F}, 1.0F, {0, 0, 1}};
 
 constexpr glm::vec3 kSun(4000.0F, 3000.0F, 2000.0F);
 
 TEST(AffectedTriangles, AreThoseInTheSunsWindowAndThoseWhoseSkyChanges) {
   LitMesh mesh = Row();
-  mesh.ambient_with[3 * 3 + 1][2] = 990.0F;  // A corner of the last, in blue alone.
-  mesh.ambient_with[0][0] = 999.0F;          // Less than is seen.
+  mesh.ambient_with[3 * 3 + 1][2] = 990.0F;  // A corner of the last triangle, in blue alone.
+  mesh.ambient_with[0][0] = 999.0F;          // Below the visible threshold.
   AffectedTriangles triangles(mesh);
   triangles.Sort(kWindow, {}, kSun);
   EXPECT_THAT(triangles.ends(), ElementsAre(3, 6, 6, 12));
@@ -101,7 +101,8 @@ TEST(AffectedTriangles, KnowTheRatioWherePhantomsLeaveAllOfTheSunOrNone) {
   EXPECT_NEAR(lit.channels[2].w, 2700.0 / 3000.0, 1e-6);
   EXPECT_NEAR(shaded.channels[0].w, 0.9, 1e-6);
   EXPECT_NEAR(shaded.channels[2].w, 0.7, 1e-6);
-  // Three tenths, seen from the corner at (2.5, 0) four metres below it, and the other two nearer.
+  // A change of 0.3, visible from the corner at (2.5, 0), four metres above the eye; the other two
+  // corners are nearer.
   EXPECT_NEAR(triangles.MaxLinearChangeFarFrom({2.0F, 0.0F, -4.0F}), 0.3 * std::hypot(0.5, 4.0),
               1e-5);
 }
@@ -122,7 +123,7 @@ TEST(AffectedTriangles, AreNotThoseBesideTheObjectsInTheSunsWindow) {
     triangles.Sort(window, objects, kSun);
     return triangles.ends()[AffectedTriangles::kSun] / 3;
   };
-  // The second triangle alone is in the window: from 0.1 to 0.6 of its side, up to 0.5 across.
+  // Only the second triangle is in the window: 0.1 to 0.6 along it, up to 0.5 across.
   EXPECT_EQ(sunlit(0.0F, {0.3F, 0.3F}, {0.4F, 0.35F}), 1);
   EXPECT_EQ(sunlit(0.0F, {0.8F, 0.1F}, {0.9F, 0.2F}), 0) << "beside it";
   EXPECT_EQ(sunlit(0.0F, {0.3F, 0.7F}, {0.4F, 0.9F}), 0) << "beyond it";

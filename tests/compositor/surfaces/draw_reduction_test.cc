@@ -14,11 +14,11 @@ namespace {
 using ::testing::ElementsAre;
 
 constexpr glm::vec3 kUp(0.0F, 0.0F, 1.0F);
-// A square of 4 m across a sun overhead, and its light.
+// A square of 4 m perpendicular to a sun overhead, and its light.
 const SunOnPhantoms kSun{
     {{1.0F, 0.0F, 0.0F, 0.0F}, {0.0F, 1.0F, 0.0F, 0.0F}, 4.0F, kUp}, false, glm::vec3(4000.0F)};
 
-/// Triangles of half a metre, a metre apart along x, all facing up.
+/// Triangles of half a metre at intervals of one metre along x, all facing up.
 LitMesh Row(std::size_t triangles, float height_m) {
   LitMesh mesh;
   for (std::size_t i = 0; i < triangles; ++i) {
@@ -34,8 +34,8 @@ LitMesh Row(std::size_t triangles, float height_m) {
   return mesh;
 }
 
-/// Four triangles of a phantom: an object stands above the first; the sky's light changes on the
-/// second, which phantoms leave all of the sun, and on the third, whose sun is not known; nothing
+/// Four triangles of a phantom. An object is above the first. The skylight changes on the second,
+/// which phantoms leave fully sunlit, and on the third, whose sun visibility is partial. Nothing
 /// changes on the last.
 class Scene {
  public:
@@ -58,7 +58,7 @@ class Scene {
     reduction_.SortObject(0, kUp);
   }
 
-  /// Phantom triangles up to the last of each kind of AffectedTriangles::Change.
+  /// Cumulative number of phantom triangles for each AffectedTriangles::Change.
   std::vector<int> ends() const {
     std::vector<int> triangles;
     for (const int end : reduction_.phantoms()[0].ends()) triangles.push_back(end / 3);

@@ -1,4 +1,4 @@
-// The table that shaders find triangles in, as they find it: by texture units.
+// Tests the table that shaders use to look up triangles, through texture units.
 
 #include "compositor/surfaces/visibility_buffer.h"
 
@@ -17,7 +17,7 @@ namespace {
 
 using ::testing::ElementsAre;
 
-/// So many triangles apart, each a component of its own.
+/// This number of separate triangles, each its own component.
 LitMesh Loose(std::uint32_t triangles) {
   LitMesh mesh;
   mesh.indices.resize(3 * std::size_t{triangles});
@@ -32,9 +32,9 @@ class VisibilityBufferTest : public gl::GlTest {
  protected:
   struct Triangles {
     GLint texture = 0, rows = 0;
-    std::vector<std::array<std::uint32_t, 4>> texels;  // By number, from 1 on.
+    std::vector<std::array<std::uint32_t, 4>> texels;  // By id, from 1 on.
   };
-  /// What shaders have at unit 1.
+  /// Content of texture unit 1.
   static Triangles Bound(const VisibilityBuffer& table) {
     table.Bind();
     glActiveTexture(GL_TEXTURE1);
@@ -56,7 +56,7 @@ TEST_F(VisibilityBufferTest, NumbersTheTrianglesOfAllMeshesUpToTheirLastEnds) {
   const std::vector<const LitMesh*> meshes{&first, &second};
   auto table = VisibilityBuffer::Create(meshes, std::vector<float>{0.25F, 0.5F});
   ASSERT_TRUE(table.has_value()) << table.error().Message();
-  // Another order; of the first mesh's four the last has no number.
+  // A different order; the last of the first mesh's four triangles has no id.
   const std::vector<std::uint32_t> order{3, 4, 5, 0, 1, 2, 6, 7, 8, 9, 10, 11};
   const std::array<int, 3> first_ends{3, 3, 9}, second_ends{0, 6, 6};
   const std::vector<SortedTriangles> sorted{{order, first_ends, {}},
@@ -72,10 +72,10 @@ TEST_F(VisibilityBufferTest, NumbersTheTrianglesOfAllMeshesUpToTheirLastEnds) {
   EXPECT_THAT(triangle(1), ElementsAre(3, 4, 5, component_and_kind(1, 0)));
   EXPECT_THAT(triangle(2), ElementsAre(0, 1, 2, component_and_kind(0, 2)));
   EXPECT_THAT(triangle(3), ElementsAre(6, 7, 8, component_and_kind(2, 2)));
-  // Vertices and components of the second mesh follow those of the whole first.
+  // The vertices and components of the second mesh follow those of the complete first one.
   EXPECT_THAT(triangle(4), ElementsAre(12, 13, 14, component_and_kind(4, 1)));
   EXPECT_THAT(triangle(5), ElementsAre(15, 16, 17, component_and_kind(5, 1)));
-  // What is asked of components lies at unit 7: four components of one value and two of the other.
+  // The values per component are at unit 7: four components of one value and two of the other.
   glActiveTexture(GL_TEXTURE7);
   GLint values_texture = 0;
   glGetIntegerv(GL_TEXTURE_BINDING_2D, &values_texture);

@@ -17,7 +17,7 @@ constexpr const char* kOwn = R"({"image_width": 640, "image_height": 480, "model
   "fx": 585, "fy": 588.5, "cx": 326.3, "cy": 235.8,
   "distortion_k1_k2_p1_p2_k3": [-0.13, 0.045, 0.0006, -0.0004, 0.01]})";
 
-// As cv::FileStorage of OpenCV 4.6 writes it, with the names of its calibration sample.
+// As written by cv::FileStorage of OpenCV 4.6, with the names of its calibration sample.
 constexpr const char* kOpenCv = R"(%YAML:1.0
 ---
 calibration_time: "Sun Sep 14 11:05:00 2025"
@@ -40,7 +40,7 @@ distortion_coefficients: !!opencv-matrix
 avg_reprojection_error: 2.1e-01
 )";
 
-// As ROS's camera_calibration writes it.
+// As written by ROS's camera_calibration.
 constexpr const char* kRos = R"(image_width: 640
 image_height: 480
 camera_name: head_camera

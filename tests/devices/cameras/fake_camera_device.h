@@ -12,7 +12,7 @@
 
 namespace pleinair::devices {
 
-/// What a test does to a camera that is none: plug, unplug, send. Any thread.
+/// Controls a simulated camera: plug, unplug, send. Callable from any thread.
 class FakeCamera {
  public:
   static constexpr int kWidth = 4, kHeight = 2;
@@ -22,7 +22,8 @@ class FakeCamera {
   void Plug() {
     Change([this] { plugged_ = true; });
   }
-  /// What is open stays gone, as a node does, also where it is plugged in again at once.
+  /// An open stream stays disconnected, like a device node, even if the camera is plugged in again
+  /// at once.
   void Unplug() {
     Change([this] {
       plugged_ = false;
@@ -30,7 +31,7 @@ class FakeCamera {
       pictures_.clear();
     });
   }
-  /// A grey image whose every pixel is `level`, with this number and stamp.
+  /// A grey image with all pixels `level`, and this number and time stamp.
   void Send(std::int64_t number, std::uint8_t level, bool damaged = false) {
     SendAt(number, number * kPeriod_ns, level, damaged);
   }
@@ -48,7 +49,7 @@ class FakeCamera {
     image.damaged = damaged;
     Change([&] { pictures_.push_back(std::move(image)); });
   }
-  /// Waits until everything that was sent has been taken from the "driver".
+  /// Waits until every sent image has been taken from the simulated driver.
   void WaitUntilEmpty() {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [this] { return pictures_.empty() && waiting_; });
@@ -132,7 +133,7 @@ class FakeCamera {
   std::mutex mutex_;
   std::condition_variable changed_;
   bool plugged_ = true;
-  int unplugged_ = 0;  // How often.
+  int unplugged_ = 0;  // Number of times.
   bool waiting_ = false;
   std::deque<CapturedImage> pictures_;
   std::atomic<int> opened_{0};

@@ -15,7 +15,7 @@ using std::chrono::milliseconds;
 using testing::ElementsAre;
 using Kind = CameraEvent::Kind;
 
-constexpr milliseconds kLong{20000};  // Only ever waited out by a failing test.
+constexpr milliseconds kLong{20000};  // Reached only by a failing test.
 
 std::unique_ptr<LiveCamera> Open(FakeCamera* camera, milliseconds stall_limit = milliseconds(1500),
                                  std::vector<ControlRequest> controls = {}) {
@@ -30,7 +30,7 @@ std::unique_ptr<LiveCamera> Open(FakeCamera* camera, milliseconds stall_limit = 
   return opened ? *std::move(opened) : nullptr;
 }
 
-/// Waits until an event of this kind comes; gives all kinds that came on the way.
+/// Waits for an event of this kind and returns the kinds of all events until then.
 std::vector<Kind> KindsUntil(LiveCamera* camera, Kind last) {
   std::vector<Kind> kinds;
   const auto end = std::chrono::steady_clock::now() + kLong;
@@ -158,7 +158,7 @@ TEST(LossCounter, SeesLossByStampsAloneOnceItKnowsThePeriod) {
   int by_time = 0;
   std::int64_t stamp_ns = 0;
   for (int number = 0; number < 40; ++number) {
-    // Every fifth frame is lost before the driver counts it.
+    // Every fifth frame is lost before the driver numbers it.
     stamp_ns += number % 4 == 3 ? 66'000'000 : 33'000'000;
     const FrameLoss loss = counter.Add(number, stamp_ns);
     EXPECT_EQ(loss.by_number, 0);

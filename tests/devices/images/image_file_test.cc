@@ -18,7 +18,7 @@ std::string Refusal(std::string_view bytes) {
   return tests::MessageOf(InspectImage(bytes, "picture"));
 }
 
-// A PNG header that promises width × height pixels, and nothing after it but its end.
+// A PNG header of size width × height, followed only by the end chunk.
 std::string PngOfSize(std::uint32_t width, std::uint32_t height) {
   std::string bytes("\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR", 16);
   for (const std::uint32_t side : {width, height}) {

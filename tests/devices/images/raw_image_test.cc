@@ -73,7 +73,7 @@ void ExpectBars(const std::vector<Bar>& bars, YuvMatrix matrix) {
   ASSERT_TRUE(ConvertRawImage(raw, &image));
   for (int x = 0; x < 2 * count; ++x) {
     const Bar& bar = bars[static_cast<std::size_t>(x / 2)];
-    // The bars' own values are rounded to whole Y, Cb, Cr: worth up to 2 in R, G, B.
+    // The bars' values are rounded to integer Y, Cb, Cr: up to 2 in R, G, B.
     EXPECT_NEAR(image.rgb(x, 1, 0), bar.r, 2) << "column " << x;
     EXPECT_NEAR(image.rgb(x, 1, 1), bar.g, 2) << "column " << x;
     EXPECT_NEAR(image.rgb(x, 1, 2), bar.b, 2) << "column " << x;
@@ -127,7 +127,7 @@ TEST(RawImage, AgreesWithOpenCvOnEveryYuvLayout) {
     cv::cvtColor(wrapped, theirs, peer.code);
     DecodedImage image;
     ASSERT_TRUE(ConvertRawImage(raw, &image));
-    // OpenCV clamps Y below 16 first, we at the end: only very dark pixels differ by more.
+    // OpenCV clamps Y below 16 first, we clamp at the end: only very dark pixels differ by more.
     for (int y = 0; y < 48; ++y) {
       for (int x = 0; x < 64; ++x) {
         const std::size_t luma = packed ? static_cast<std::size_t>(y) * 128 + 2UL * x +
@@ -167,7 +167,7 @@ TEST(RawImage, ReadsPackedYuvInAnyOrderToTheSamePicture) {
 }
 
 TEST(RawImage, DemosaicsFlatColorExactlyAndKeepsItsChannels) {
-  // R 200, G 100, B 50 under each pattern: a wrong pattern swaps or mixes them.
+  // R 200, G 100, B 50 under each pattern: a wrong pattern swaps or mixes the channels.
   struct Pattern {
     PixelFormat format;
     int colors[4];
@@ -258,7 +258,7 @@ TEST(MotionJpeg, NeedsNoHuffmanTables) {
   std::vector<std::uint8_t> bytes = Jpeg(64, 48);
   DecodedImage with, without;
   ASSERT_TRUE(ConvertRawImage(Mjpeg(bytes, 64, 48), &with));
-  // OpenCV writes the standard tables (ITU-T T.81, Annex K.3): take out their segments.
+  // OpenCV writes the standard tables (ITU-T T.81, Annex K.3). This removes their segments.
   int removed = 0;
   for (std::size_t at = 2; at + 4 < bytes.size() && bytes[at + 1] != 0xDA;) {
     const std::size_t length = 2 + bytes[at + 2] * 256UL + bytes[at + 3];

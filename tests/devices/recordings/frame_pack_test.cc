@@ -158,7 +158,7 @@ TEST(FramePack, OnAFullDiskEndsWithTheFrameBeforeAndSaysSo) {
   const auto writer = FramePackWriter::Create(folder / "frames.pack");
   ASSERT_TRUE(writer);
   ASSERT_TRUE((*writer)->Add(MakeFrame(0)));
-  // As a full disk does, a limit on the file's size lets a part of the write through.
+  // Like a full disk, a limit on the file size permits a partial write.
   rlimit before{};
   getrlimit(RLIMIT_FSIZE, &before);
   const auto handler = std::signal(SIGXFSZ, SIG_IGN);

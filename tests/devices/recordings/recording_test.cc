@@ -12,7 +12,7 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-// A recording of four frames in the courtyard's form.
+// A recording of four frames in the format of the courtyard's.
 constexpr const char* kRecordingJson = R"({"format": 1, "frames": "frames", "frame_count": 4,
   "timestamps_s": [0, 0.1, 0.2, 0.35],
   "calibration": {"image_width": 640, "image_height": 480, "model": "opencv-radtan",
@@ -59,7 +59,7 @@ TEST_F(SmallRecording, GoesOnAtTheFrameThatItIsToldToSkipTo) {
   const Result<Recording> recording = OpenRecording(folder_.path());
   ASSERT_TRUE(recording) << recording.error().Message();
   FrameSource& frames = *recording->frames;
-  std::filesystem::remove(folder_ / "frames/0001.jpg");  // It is not even opened.
+  std::filesystem::remove(folder_ / "frames/0001.jpg");  // This file is not opened.
   ASSERT_EQ((*frames.Next())->index, 0);
   frames.SkipTo(2);
   const Result<std::optional<Frame>> third = frames.Next();
@@ -98,7 +98,7 @@ TEST(Recording, SameFramesComeOutTwice) {
   }
 }
 
-// The ground truth of scene.json is for tests and scores: destroying it changes nothing.
+// The ground truth of scene.json is for tests and scores only: replacing it has no effect.
 TEST(Recording, GroundTruthIsNeverLookedAt) {
   const tests::TemporaryFolder folder;
   std::string scene = tests::Content(tests::Courtyard() / "scene.json");

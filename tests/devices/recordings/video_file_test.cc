@@ -18,7 +18,7 @@ constexpr int kFrames = 40;
 constexpr const char* kLens =
     "image_size: [160, 120]\nK: [150, 0, 79.5, 0, 150, 59.5, 0, 0, 1]\nD: []\n";
 
-// Frame i is of the grey 4 i, so that order and number can be told.
+// Frame i has the grey value 4 i, which shows order and number.
 void WriteVideo(const std::filesystem::path& file, int fourcc) {
   cv::VideoWriter writer(file.string(), cv::CAP_FFMPEG, fourcc, 25.0, cv::Size(160, 120));
   ASSERT_TRUE(writer.isOpened()) << file;
@@ -34,7 +34,7 @@ class Video : public ::testing::Test {
     options_.calibration = folder_.Write("lens.yaml", kLens);
   }
 
-  // Reads all frames; the error's message, or how many there were.
+  // Reads all frames. Returns the error's message, or their number.
   static std::string ReadAll(const Result<Recording>& recording) {
     if (!recording) return "at opening: " + recording.error().Message();
     for (int i = 0;; ++i) {
@@ -70,7 +70,7 @@ TEST_F(Video, FolderMayHaveAVideoInsteadOfPictures) {
                     "cy": 59.5}})";
   folder_.Write("recording.json", json);
   EXPECT_EQ(ReadAll(OpenRecording(folder_.path())), "40 frames");
-  // The one of custom, where the named folder is not there.
+  // The conventional file is used if the named folder does not exist.
   std::filesystem::rename(folder_ / "film.mp4", folder_ / "background.mp4");
   folder_.Write("recording.json", tests::Replaced(json, "film.mp4", "frames"));
   EXPECT_EQ(ReadAll(OpenRecording(folder_.path())), "40 frames");
@@ -94,7 +94,7 @@ TEST_F(Video, CutShortAnywhereIsNoticedAtOpening) {
   }
 }
 
-// Matroska written as a stream has no lengths to compare with.
+// A streamed Matroska file has no lengths to compare with.
 TEST_F(Video, CutShortInOtherContainersIsNoticedAtTheEnd) {
   WriteVideo(folder_ / "film.mkv", cv::VideoWriter::fourcc('M', 'J', 'P', 'G'));
   EXPECT_EQ(ReadAll(OpenRecording(folder_ / "film.mkv", options_)), "40 frames");

@@ -87,7 +87,7 @@ TEST_F(WriterTest, VideoKeepsTheTimesOfSlowFramesAndOfStampsBeforeZero) {
 }
 
 TEST_F(WriterTest, WhatLibavRefusesIsNoFaultOfTheFile) {
-  // A frame in four months: longer than MP4 can count.
+  // One frame in four months: beyond MP4's time range.
   auto writer = VideoWriter::Create(root_ / "slow.mp4", {64, 48, 1e-7});
   ASSERT_TRUE(writer);
   for (int i = 0; i < 3; ++i) {
@@ -122,7 +122,7 @@ TEST_F(WriterTest, PngOfTheSamePictureHasTheSameBytes) {
 }
 
 TEST(WritePng, OntoAFullDiskIsASystemError) {
-  // More than the stream's buffer, so that the failure comes while writing.
+  // More than the stream's buffer, so that the failure occurs while writing.
   const auto written = WritePng("/dev/full", Gradient(256, 256, 3).view());
   ASSERT_FALSE(written);
   EXPECT_EQ(written.error().kind, ErrorKind::kSystem);

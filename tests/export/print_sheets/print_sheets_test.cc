@@ -1,4 +1,4 @@
-// What sheets are made of: outlines, pages, layout, pictures.
+// Tests the parts of print sheets: outlines, pages, layout, images.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -40,7 +40,7 @@ tracker::MarkerPattern PatternOf(const std::vector<std::string>& rows) {
   return pattern;
 }
 
-/// Even-odd rule at the middle of a module: edges that a ray to the left crosses.
+/// Even-odd rule at a module's centre: number of edges that a ray to the left crosses.
 bool FilledAt(const std::vector<std::vector<ModuleCorner>>& loops, int x, int y) {
   int crossings = 0;
   for (const auto& loop : loops) {
@@ -67,7 +67,7 @@ TEST(PrintOutline, FillsExactlyTheBlackModulesOfRandomPatterns) {
       for (std::size_t i = 0; i < loop.size(); ++i) {
         const ModuleCorner a = loop[i], b = loop[(i + 1) % loop.size()],
                            c = loop[(i + 2) % loop.size()];
-        // Along an axis, and turning at each corner.
+        // Axis-parallel edges, with a turn at each corner.
         ASSERT_NE(a.x == b.x, a.y == b.y);
         ASSERT_NE(a.x == b.x, b.x == c.x);
       }
@@ -177,7 +177,7 @@ TEST(BoardSheet, ShowsWhatItsDescriptionSays) {
   }
 }
 
-/// Light of a rendered page around a place, 1 mm a side.
+/// Light of a rendered page around a point, 1 mm per side.
 double LightAt(const Image<std::uint8_t>& page, Vec2 at_mm) {
   double light = 0.0;
   for (int i = 0; i < kSheetPixelsPerMm * kSheetPixelsPerMm; ++i) {
@@ -215,7 +215,7 @@ TEST(SquareBoardSheet, HasItsCornersWhereItsDescriptionSays) {
     for (const auto& corner : description["corners_m"]) {
       const Vec2 at{middle.x + corner[0].get<double>() * 1e3,
                     middle.y - corner[1].get<double>() * 1e3};
-      // Black and white meet crosswise, and half of what is around is black.
+      // Black and white meet diagonally: half of the surroundings is black.
       const double one = LightAt(page, at + Vec2{1, 1}), other = LightAt(page, at + Vec2{-1, 1});
       EXPECT_NEAR(one + other, 1.0, 1e-6);
       EXPECT_EQ(LightAt(page, at + Vec2{-1, -1}), one);
@@ -243,8 +243,8 @@ TEST(PredictedImage, HoldsTheEdgeFractionExactlyAtAnyNumberOfPixels) {
   const tracker::MarkerPattern print = tracker::SgMarkerPattern(1234);
   for (const int pixels : {48, 49, 100, 333, 500, 1001}) {
     const Image<std::uint8_t> picture = RasterizeMarker(print, pixels);
-    // Along the rim's first row that is black over the whole width, light that is missing is the
-    // black square's edge.
+    // Along the rim's first row, black over the whole width, missing light is the black square's
+    // edge.
     const int y = pixels * (sg::kQuiet + 2) / sg::kModules;
     double black_px = 0.0, moment = 0.0;
     for (int x = 0; x < pixels; ++x) {
@@ -252,7 +252,7 @@ TEST(PredictedImage, HoldsTheEdgeFractionExactlyAtAnyNumberOfPixels) {
       black_px += black;
       moment += black * (x + 0.5);
     }
-    // Eight bits leave 1/255 in sRGB, up to 0.009 in linear light, on each of two edges.
+    // 8-bit rounding is 1/255 in sRGB, up to 0.009 in linear light, on each of two edges.
     EXPECT_NEAR(black_px, pixels * 40.0 / 48.0, 0.01) << pixels;
     EXPECT_NEAR(moment / black_px, 0.5 * pixels, 0.01) << pixels;
   }

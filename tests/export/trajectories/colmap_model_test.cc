@@ -73,7 +73,7 @@ TEST(ColmapModel, ReadsTheDocumentationsOwnExample) {
   ASSERT_TRUE(path->camera);
   EXPECT_EQ(path->camera->fx, 2559.81);
   EXPECT_EQ(path->camera->fy, 2559.81);
-  // COLMAP's pixels begin at the picture's corner, ours at the first pixel's centre.
+  // COLMAP's pixel origin is the image's corner, ours the first pixel's centre.
   EXPECT_EQ(path->camera->cx, 1535.5);
   ASSERT_EQ(path->points.size(), 3U);
   EXPECT_EQ(path->points[1].place.xyz, (Vec3{2.01848, 0.108877, -0.0260841}));
@@ -96,7 +96,7 @@ TEST(ColmapModel, WritesWhatItReads) {
 }
 
 TEST(ColmapCamera, EveryKnownModelDistortsAsItsFormulaSays) {
-  // Formulae of COLMAP's sensor/models.h at one point of the picture.
+  // Formulae of COLMAP's sensor/models.h at one image point.
   const double u = 0.3, v = -0.2, r2 = u * u + v * v;
   const double theta = std::atan(std::sqrt(r2)), t2 = theta * theta;
   struct Case {
@@ -183,7 +183,7 @@ TEST(ColmapModel, RefusesWhatIsCutShortOrContradictsItself) {
   EXPECT_THAT(tests::MessageOf(PathOfText({})), HasSubstr("holds no pictures"));
 }
 
-// The same example as COLMAP 3.8's model_converter wrote it.
+// The same example as written by COLMAP 3.8's model_converter.
 ColmapFiles BinaryExample() {
   const auto bytes = [](const char* name) {
     std::ifstream file(tests::SourceTree() / "tests/export/trajectories/colmap" / name,
@@ -214,7 +214,7 @@ TEST(ColmapBinary, ReportsWhatTheTextTells) {
   const auto binary = PathOfBinary(BinaryExample()), text = PathOfText(ColmapExample());
   ASSERT_TRUE(binary) << binary.error().Message();
   ExpectSamePath(*binary, *text);
-  // COLMAP writes points in an order of its own.
+  // COLMAP writes points in its own order.
   for (const TrajectoryPoint& point : text->points) {
     EXPECT_TRUE(std::any_of(binary->points.begin(), binary->points.end(),
                             [&](const TrajectoryPoint& p) {
@@ -234,7 +234,7 @@ TEST(ColmapBinary, WritesWhatItReads) {
   ExpectSamePath(*again, path);
   EXPECT_EQ(again->points[2].place.xyz, path.points[2].place.xyz);
   EXPECT_EQ(again->points[2].rgb, path.points[2].rgb);
-  // Sizes after the format's description: FULL_OPENCV has twelve parameters.
+  // Sizes from the format's description: FULL_OPENCV has twelve parameters.
   EXPECT_EQ(files.cameras.size(), 8U + 24 + 12 * 8);
   EXPECT_EQ(files.images.size(), 8U + 2 * (4 + 7 * 8 + 4 + 13 + 8));
   EXPECT_EQ(files.points3d.size(), 8U + 3 * (8 + 3 * 8 + 3 + 8 + 8));
@@ -248,7 +248,7 @@ TEST(ColmapBinary, CutAtAnyByteIsAnErrorThatNamesTheFile) {
   for (const auto& [file, name] : kFiles) {
     const std::string whole = BinaryExample().*file;
     ASSERT_GT(whole.size(), 100U);
-    // No bytes of points are no points, which a model may be without.
+    // An empty points file is valid: a model may have no points.
     for (std::size_t size = file == &ColmapFiles::points3d ? 1 : 0; size < whole.size(); ++size) {
       ColmapFiles files = BinaryExample();
       files.*file = whole.substr(0, size);

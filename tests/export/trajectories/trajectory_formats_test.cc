@@ -29,7 +29,7 @@ CameraTrajectory OnePose(const Transform<Reference, Camera>& pose) {
   return path;
 }
 
-// Ground truth of freiburg1_xyz, as the TUM RGB-D benchmark publishes it.
+// Ground truth of freiburg1_xyz, as published by the TUM RGB-D benchmark.
 constexpr const char* kTumExample =
     "# ground truth trajectory\n"
     "# file: 'rgbd_dataset_freiburg1_xyz.bag'\n"
@@ -45,7 +45,7 @@ TEST(TumPath, ReadsTheBenchmarksOwnExample) {
   EXPECT_EQ(path->poses[1].timestamp_ns, 1'305'031'098'675'800'000);
   const auto& pose = path->poses[0].reference_from_camera;
   EXPECT_EQ(pose.translation_m, (Vec3{1.3563, 0.6305, 1.6380}));
-  // The desk of that sequence lies below the camera: it looks down.
+  // The desk in that sequence is below the camera, which looks down.
   EXPECT_LT((pose * Direction<Camera>{{0, 0, 1}}).xyz.z, -0.4);
 }
 
@@ -111,7 +111,7 @@ TEST(TumPath, RefusesWhatIsNoPathWithItsLine) {
   }
 }
 
-// The first line of MH_01_easy's ground truth and its cam0's T_BS, as the data set publishes them.
+// The first line of MH_01_easy's ground truth and its cam0's T_BS, as published with the data set.
 constexpr const char* kEurocExample =
     "#timestamp, p_RS_R_x [m], p_RS_R_y [m], p_RS_R_z [m], q_RS_w [], q_RS_x [], q_RS_y [], "
     "q_RS_z [], v_RS_R_x [m s^-1], v_RS_R_y [m s^-1], v_RS_R_z [m s^-1], b_w_RS_S_x [rad s^-1], "
@@ -136,7 +136,7 @@ TEST(EurocPath, ReadsTheBodysPathAndTheCamerasThroughItsMounting) {
   const auto mounting = devices::ParseEurocExtrinsics(kEurocSensor, "sensor.yaml");
   ASSERT_TRUE(mounting) << mounting.error().Message();
   const auto camera = ParseEurocTrajectory(kEurocExample, "data.csv", *mounting);
-  // By matrices of another program (NumPy).
+  // Computed with matrices in NumPy.
   const auto& pose = camera->poses[0].reference_from_camera;
   EXPECT_NEAR(pose.translation_m.x, 4.66612097, 1e-6);
   EXPECT_NEAR(pose.translation_m.y, -1.84835617, 1e-6);

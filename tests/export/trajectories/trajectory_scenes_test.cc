@@ -31,8 +31,8 @@ T NumberAt(std::string_view bytes, std::size_t at) {
   return value;
 }
 
-/// Two metres above a marker on the ground, looking down, the picture's top to the north; then
-/// from the south, level, at a height of one metre.
+/// First pose: two metres above a marker on the ground, looking down, image top to the north.
+/// Second pose: from the south, level, at a height of one metre.
 CameraTrajectory TwoPoses() {
   CameraTrajectory path;
   path.camera =
@@ -42,7 +42,7 @@ CameraTrajectory TwoPoses() {
   return path;
 }
 
-/// A glb taken apart.
+/// The parts of a glb file.
 struct Glb {
   Json json;
   std::string_view data;
@@ -80,7 +80,7 @@ TEST(GltfPath, MovesACameraAsGltfHasItWithYUp) {
   EXPECT_THAT(scene.Floats(animation["samplers"][0]["output"]), ElementsAre(0, 2, 0, 0, 1, 3));
   const std::vector<float> q = scene.Floats(animation["samplers"][1]["output"]);
   // glTF cameras look along -z with y up. Looking down is a quarter turn about -x; looking north,
-  // level, no turn at all.
+  // level, is the identity.
   const float half = std::sqrt(0.5F);
   EXPECT_THAT(q, testing::Pointwise(testing::FloatNear(1e-6F),
                                     std::vector<float>{-half, 0, 0, half, 0, 0, 0, 1}));
@@ -99,7 +99,7 @@ TEST(GltfPath, ShowsMarkerAndPointsInTheSameScene) {
   const Glb scene = TakeApart(*glb);
   EXPECT_EQ(scene.json["scenes"][0]["nodes"], Json({0, 1, 2}));
   const Json& marker = scene.json["meshes"][0]["primitives"][0]["attributes"];
-  // The print's top-left corner lies in the north-west; its front looks up.
+  // The marker's top-left corner is in the north-west; its front faces up.
   const std::vector<float> corners = scene.Floats(marker["POSITION"]);
   EXPECT_THAT(std::vector<float>(corners.begin(), corners.begin() + 3),
               ElementsAre(-0.25F, 0.0F, -0.25F));
@@ -137,8 +137,8 @@ TEST(GltfPath, RefusesALensThatNoPerspectiveCameraHas) {
   EXPECT_FALSE(GltfFromTrajectory(path, {}));
 }
 
-/// Reads an MCAP file as its specification says, chunk by chunk through the summary's index, and
-/// checks every checksum, length and offset on the way.
+/// Reads an MCAP file by its specification, chunk by chunk through the summary's index. Checks
+/// every checksum, length and offset.
 class McapReader {
  public:
   explicit McapReader(std::string_view file) : file_(file) {

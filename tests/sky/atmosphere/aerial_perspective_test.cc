@@ -58,7 +58,7 @@ TEST(AerialPerspective, TakesMoreAndAddsMoreWithDistanceButNoMoreThanTheHorizon)
       EXPECT_GE(Luminance(added), light * (1.0 - 1e-12));
       EXPECT_LE(Luminance(left), through);
       EXPECT_GE(std::min({added.r, added.g, added.b}), 0.0);
-      EXPECT_LE(left.b, left.r);  // Far things redden, their veil is blue.
+      EXPECT_LE(left.b, left.r);  // Distant surfaces redden; the airlight is blue.
       light = Luminance(added);
       through = Luminance(left);
     }
@@ -66,7 +66,7 @@ TEST(AerialPerspective, TakesMoreAndAddsMoreWithDistanceButNoMoreThanTheHorizon)
   }
 }
 
-// Koschmieder: 5 % of the contrast are left at the meteorological range.
+// Koschmieder: 5 % of the contrast remain at the meteorological range.
 TEST(AerialPerspective, HidesMoreInHaze) {
   const auto range_km = [](double turbidity) {
     const AtmosphereTables tables(AerosolOfTurbidity(turbidity), 0.15);

@@ -39,8 +39,8 @@ struct Condition {
   int paths;
 };
 
-// The path tracer's own noise is 2 to 6 % at so few paths; docs/measurements/sky.md has the errors
-// without it.
+// The path tracer's noise is 2 to 6 % with this number of paths. docs/measurements/sky.md has the
+// errors without it.
 TEST(AtmosphereSky, AgreesWithAPathTracer) {
   const auto dome = reference::DomeSamples(8, 6);
   const Aerosol moderate{0.03, 1.1, 1200.0, 0.93, 0.78};
@@ -84,7 +84,7 @@ TEST(AtmosphereSky, IsPositiveAndFiniteAtAnyHour) {
   }
 }
 
-/// In luminance, and in the color channels as a share of the brightest.
+/// In luminance, and in the color channels relative to the brightest.
 double ChangeOfLight(Vec3 a, Vec3 b) {
   const LinearRgb p = RgbInGamut(a), q = RgbInGamut(b);
   const double color =
@@ -93,7 +93,7 @@ double ChangeOfLight(Vec3 a, Vec3 b) {
   return std::max({a.y / b.y - 1.0, b.y / a.y - 1.0, color});
 }
 
-// Where the steepest places are: `sky_changes`.
+// `sky_changes` finds the steepest places.
 TEST(AtmosphereSky, ChangesByLessThanFivePercentInATenthOfADegree) {
   struct Air {
     double turbidity, albedo;
@@ -134,7 +134,7 @@ TEST(AtmosphereSky, SoftensNothingButTheHorizon) {
   };
   EXPECT_NEAR(softened(0.0, 30.0), 2.9 / std::exp(1.0), 1e-9);
   EXPECT_DOUBLE_EQ(softened(3.0, 30.0), 3.0);
-  // Continuous with its slope.
+  // Continuous, with a continuous slope.
   EXPECT_NEAR(softened(2.9, 30.0) - softened(2.8, 30.0), 0.1, 2e-3);
   for (int i = 0; i < 900; ++i) {
     const double elevation = 0.1 * i;
@@ -143,8 +143,8 @@ TEST(AtmosphereSky, SoftensNothingButTheHorizon) {
   }
 }
 
-// The sky follows a low sun by more than 5 % in 0.1°, and so does the path tracer's, which sees
-// both suns along the same paths.
+// Under a low sun the sky changes by more than 5 % in 0.1°. The path tracer's sky does too; both of
+// its suns use the same paths.
 TEST(AtmosphereSky, FollowsALowSunAsFastAsAPathTracedSkyDoes) {
   struct Move {
     double turbidity, sun, azimuth, elevation;
@@ -171,15 +171,15 @@ TEST(AtmosphereSky, FollowsALowSunAsFastAsAPathTracedSkyDoes) {
   }
 }
 
-// The sun's own rise changes the sky: what is left when the trend of the two steps around is taken
-// away is a jump.
+// The sun's motion itself changes the sky. A jump is what remains after the trend of the two
+// neighbouring steps is subtracted.
 TEST(AtmosphereSky, FollowsTheSunWithoutAJump) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> elevations(-6.0, 15.0);
   for (const double turbidity : {1.5, 3.0, 20.0}) {
     const auto tables = TablesOf(turbidity);
     for (int i = 0; i < 12; ++i) {
-      // Every fourth at one of the places of the sun that the tables keep.
+      // Every fourth step is at a sun elevation that the tables contain.
       const double sun =
           i % 4 == 0 ? ScatteredLight::SunElevationDeg(6 + 2 * i) : elevations(random);
       const AtmosphereSky before(tables, Towards(kSunAzimuth, sun - 0.1), 1.0);
@@ -209,7 +209,8 @@ TEST(AtmosphereSky, DarkensThroughTwilightToTheStars) {
     EXPECT_LT(now, last) << sun;
     last = now;
   }
-  // Seidelmann 1992, Table 8.2, by altitude without refraction, here with: half a degree of time.
+  // Seidelmann 1992, Table 8.2, by altitude without refraction. Here refraction is included: half a
+  // degree.
   EXPECT_GT(lux(0.0), 600.0);
   EXPECT_LT(lux(0.0), 1'100.0);
   EXPECT_GT(lux(-6.0), 2.0);
@@ -224,7 +225,7 @@ TEST(AtmosphereSky, DarkensThroughTwilightToTheStars) {
 TEST(AtmosphereSky, LooksLikeASky) {
   const auto tables = TablesOf(kDefaultTurbidity);
   const AtmosphereSky noon(tables, Towards(kSunAzimuth, 45.0), 1.0);
-  // Brighter towards the horizon, a glow about the sun, blue away from it.
+  // Brighter towards the horizon, a glow around the sun, blue away from it.
   EXPECT_GT(LuminanceAt(noon, 180.0, 3.0), 2.0 * LuminanceAt(noon, 180.0, 45.0));
   EXPECT_GT(LuminanceAt(noon, 0.0, 43.0), 5.0 * LuminanceAt(noon, 180.0, 45.0));
   const XyY away = XyYFromXyz(noon.Xyz(Towards(kSunAzimuth + 180.0, 45.0)));
@@ -273,7 +274,7 @@ TEST(AtmosphereModel, IntegratesToItsHorizontalIlluminance) {
   double sum = 0.0;
   constexpr int kRings = 400, kSectors = 400;
   for (int i = 0; i < kRings; ++i) {
-    const double up = (i + 0.5) / kRings;  // Even in solid angle.
+    const double up = (i + 0.5) / kRings;  // Uniform in solid angle.
     for (int j = 0; j < kSectors; ++j) {
       const double elevation = std::asin(up) / kRadiansPerDegree;
       sum += up * (*sky)->At(Towards(360.0 * (j + 0.5) / kSectors, elevation)).luminance;
@@ -311,7 +312,7 @@ TEST(ScatteringLayers, KeepAnEvenFieldEvenWithoutAbsorption) {
   }
 }
 
-// Kasten & Young's air masses at 30° and 5° are 1.994 and 10.3; ozone, high up, makes less of it.
+// Kasten & Young's air masses at 30° and 5° are 1.994 and 10.3; high-altitude ozone lowers them.
 TEST(OpticalDepthTable, GrowsAsTheAirMass) {
   const AirMedium medium(Aerosol{.beta = 0.0}, 0.0);
   const OpticalDepthTable depths(medium);
@@ -320,7 +321,7 @@ TEST(OpticalDepthTable, GrowsAsTheAirMass) {
               2e-3 * zenith);
   EXPECT_NEAR(depths.ToSpace(0.0, std::sin(30.0 * kRadiansPerDegree)).v[0] / zenith, 1.994, 0.01);
   EXPECT_NEAR(depths.ToSpace(0.0, std::sin(5.0 * kRadiansPerDegree)).v[0] / zenith, 10.2, 0.2);
-  // Through the whole air, twice from the lowest point.
+  // Through the whole atmosphere: twice the path from the lowest point.
   const double grazing_mu = -std::sqrt(1.0 - std::pow(6'370.0 / 6'380.0, 2));
   EXPECT_NEAR(
       depths.ToSpace(20'000.0, grazing_mu).v[0] + depths.ToSpace(20'000.0, -grazing_mu).v[0],

@@ -12,7 +12,7 @@
 namespace pleinair::sky {
 namespace {
 
-/// Light that the sun's becomes when each wavelength is multiplied by f.
+/// The sun's light after each wavelength is multiplied by f.
 template <typename Function>
 XyY WithAllBands(const Function& f) {
   Vec3 xyz;

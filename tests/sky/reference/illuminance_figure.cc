@@ -1,4 +1,5 @@
-// Draws docs/images/sky_illuminance.svg: a day's sun and sky by the models and by IES.
+// Draws docs/images/sky_illuminance.svg: the light of sun and sky over a day by the models and by
+// IES.
 //
 //   illuminance_figure > docs/images/sky_illuminance.svg
 
@@ -16,7 +17,7 @@
 namespace pleinair::sky {
 namespace {
 
-/// What a model says at one moment.
+/// Result of a model at one time.
 struct Light {
   double sun_klx = 0.0, sky_klx = 0.0, share = 0.0;
 };

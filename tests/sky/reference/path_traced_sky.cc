@@ -17,8 +17,8 @@ constexpr double kGround = AirMedium::kGroundRadius;
 constexpr int kShells = 400;
 constexpr double kInfinity = 1e300;
 
-/// Distance along a ray to a sphere about the origin from within it; from without, the first hit,
-/// kInfinity where there is none.
+/// Distance along a ray to a sphere about the origin: from inside the exit, from outside the first
+/// hit. kInfinity if there is none.
 double ToSphere(Vec3 position, Vec3 direction, double radius) {
   const double along = Dot(position, direction);
   const double discriminant = along * along - Dot(position, position) + radius * radius;
@@ -28,7 +28,7 @@ double ToSphere(Vec3 position, Vec3 direction, double radius) {
   return -along + root > 0.0 ? -along + root : kInfinity;
 }
 
-/// A direction at the angle of cosine `c` and the azimuth `phi` about `axis`.
+/// A direction at polar angle acos(`c`) and azimuth `phi` about `axis`.
 Vec3 About(Vec3 axis, double c, double phi) {
   const Vec3 helper = std::fabs(axis.z) < 0.9 ? Vec3{0, 0, 1} : Vec3{1, 0, 0};
   const Vec3 u = Normalized(Cross(helper, axis));
@@ -37,7 +37,7 @@ Vec3 About(Vec3 axis, double c, double phi) {
   return Normalized(u * (s * std::cos(phi)) + v * (s * std::sin(phi)) + axis * c);
 }
 
-/// Cosine distributed as the molecules' phase function; Frisvad 2011, "Importance sampling the
+/// Cosine distributed by the molecules' phase function; Frisvad 2011, "Importance sampling the
 /// Rayleigh phase function", Eq. (15).
 double SampleMolecules(double u) {
   const double q = 2.0 * (2.0 * u - 1.0);
@@ -45,7 +45,7 @@ double SampleMolecules(double u) {
   return 1.0 / w - w;
 }
 
-/// Likewise for Henyey & Greenstein's.
+/// The same for the Henyey & Greenstein function.
 double SampleAerosol(double g, double u) {
   if (std::fabs(g) < 1e-3) return 2.0 * u - 1.0;
   const double s = (1.0 - g * g) / (1.0 - g + 2.0 * g * u);
@@ -71,7 +71,7 @@ PathTracedSky::PathTracedSky(const Scene& scene) : scene_(scene) {
     return scale * (std::exp(-low / scale) - std::exp(-high / scale)) / (high - low);
   };
   for (int i = 0; i < kShells; ++i) {
-    // Thin near the ground, where the haze is: 100 km t².
+    // Thin shells near the ground, where the haze is: 100 km t².
     const auto height = [](int n) {
       const double t = static_cast<double>(n) / kShells;
       return AirMedium::kTopHeight * t * t;
@@ -98,8 +98,8 @@ int PathTracedSky::ShellAt(double radius) const {
 
 namespace {
 
-/// The piece of a ray within one shell: its length, and the shell that follows (-1: the ground,
-/// the number of shells: space).
+/// The segment of a ray within one shell: its length and the next shell (-1: the ground; the number
+/// of shells: space).
 struct Piece {
   double length;
   int next;

@@ -10,31 +10,31 @@
 
 namespace pleinair::sky::reference {
 
-/// The air, the ground and the sun of a path-traced sky.
+/// Air, ground and sun of a path-traced sky.
 struct Scene {
   Aerosol aerosol;
   double ground_albedo = 0.15;
   double sun_elevation_deg = 30.0;
 };
 
-/// A sky by Monte Carlo: paths followed backwards from an eye 2 m above a spherical ground through
-/// concentric shells, any number of scatterings, ground reflections included. Shares with the
-/// product the optical constants of sky/atmosphere/air_medium.h and nothing else: wavelength by
-/// wavelength, no tables, no approximation but the shells (400 of them, each of even density).
+/// A sky by Monte Carlo: backward paths from an eye 2 m above a spherical ground through concentric
+/// shells. Any number of scatterings, ground reflections included. Shares only the optical
+/// constants of sky/atmosphere/air_medium.h with the product. Wavelength by wavelength, without
+/// tables; the only approximation is the 400 homogeneous shells.
 class PathTracedSky {
  public:
   explicit PathTracedSky(const Scene& scene);
 
-  /// Luminance and chromaticity from an elevation and an azimuth counted from the sun's, degrees.
-  /// `paths` a wavelength. Deterministic in `seed`. With a wall, black and seen only by the eye:
-  /// the light that the air in front of it sends.
+  /// Luminance and chromaticity at an elevation and an azimuth relative to the sun's, degrees.
+  /// `paths` per wavelength. Deterministic in `seed`. With a black wall, visible only to the eye:
+  /// the airlight in front of it.
   XyY At(double elevation_deg, double azimuth_from_sun_deg, int paths, std::uint64_t seed,
          double wall_m = 1e300) const;
 
-  /// The sun's illuminance on a surface facing it, lux, its disc taken as a point.
+  /// The sun's illuminance on a surface facing it, lux, with the sun as a point.
   double SunNormalLux() const;
 
-  /// 400…700 nm in steps of 20.
+  /// 400…700 nm in steps of 20 nm.
   static constexpr int kWavelengths = 16;
   static double Wavelength(int i) { return 400.0 + 20.0 * i; }
 
@@ -48,7 +48,7 @@ class PathTracedSky {
   };
   struct Walk;
 
-  /// Radiance over the sun's irradiance, one path.
+  /// Radiance relative to the sun's irradiance, by one path.
   double Trace(Vec3 direction, const Coefficients& c, double wall_m, Walk* walk) const;
   double OpticalDepthToSun(Vec3 position, const Coefficients& c) const;
   int ShellAt(double radius) const;

@@ -1,10 +1,10 @@
-// How fast the sky of `atmosphere` changes in 0.1°, for docs/measurements/sky.md:
+// Measures how fast the sky of `atmosphere` changes in 0.1°, for docs/measurements/sky.md:
 //
 //   sky_changes [paths a direction and wavelength, 4000]
 //
-// First the steepest change from one direction to the next, over suns of −6° to 90°; then, where
-// the sky changes most as the sun moves, the same change by the path tracer. Both of its suns are
-// seen along the same paths, so that their ratio has little noise.
+// First the steepest change between adjacent directions, for suns of −6° to 90°. Then the steepest
+// change as the sun moves, with the path tracer's change at the same place. Both of its suns use
+// the same paths, so that their ratio has little noise.
 
 #include <algorithm>
 #include <array>
@@ -41,7 +41,7 @@ struct Steepest {
   }
 };
 
-/// Of the luminance, and of the color channels as a share of the brightest.
+/// Of the luminance, and of the color channels relative to the brightest.
 struct Changes {
   Steepest luminance, color;
 };
@@ -63,7 +63,7 @@ void Sweep(const AtmosphereSky& sky, double sun, Changes* changes) {
     changes->color.Offer({ColorChange(a, b), sun, azimuth, elevation});
   };
   for (const double azimuth : {0.0, 0.5, 1.0, 2.0, 5.0, 15.0, 40.0, 90.0, 130.0, 180.0}) {
-    // Steps of 0.05° below 15°, of 0.1° above.
+    // Steps of 0.05° below 15° and of 0.1° above.
     for (int i = 0; i < 1050; ++i) {
       const double e = i < 300 ? 0.05 * i : 15.0 + 0.1 * (i - 300);
       look(azimuth, e, azimuth, std::min(e + kStepDeg, 90.0));
@@ -107,7 +107,7 @@ struct Move {
   double turbidity, sun, azimuth, elevation;
 };
 
-/// Mean and standard error of the tracer's change of luminance, as the sun rises by kStepDeg.
+/// Mean and standard error of the path tracer's change of luminance as the sun rises by kStepDeg.
 struct Traced {
   double change = 0.0, error = 0.0;
 };

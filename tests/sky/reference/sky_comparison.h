@@ -9,19 +9,19 @@
 
 namespace pleinair::sky::reference {
 
-/// A direction of the dome (degrees, azimuth from the sun's) and the solid angle it stands for.
+/// A direction of the dome (degrees, azimuth relative to the sun's) and its solid angle.
 struct Sample {
   double elevation_deg, azimuth_deg, weight;
 };
 
-/// `rings` × `sectors` directions: elevations at the middles of even steps, azimuths over the half
-/// circle, to which skies are symmetric.
+/// `rings` × `sectors` directions: elevations at the centres of equal steps, azimuths over the half
+/// circle. Skies are symmetric about the sun's azimuth.
 std::vector<Sample> DomeSamples(int rings, int sectors);
 
-/// How far a sky is from the reference.
+/// Errors of a sky relative to the reference.
 struct Comparison {
-  double rmse = 0.0;          ///< Root of the mean square of the difference over that of the truth.
-  double shape_rmse = 0.0;    ///< The same after the best common factor.
+  double rmse = 0.0;          ///< RMS difference relative to the RMS of the truth.
+  double shape_rmse = 0.0;    ///< The same after the best common scale factor.
   double illuminance = 0.0;   ///< Ratio of the horizontal illuminances.
   double chromaticity = 0.0;  ///< Mean distance in x, y.
 };

@@ -1,8 +1,8 @@
-// How far the models are from path-traced skies, as a table for docs/measurements/sky.md:
+// Measures the models' errors against path-traced skies, as a table for docs/measurements/sky.md:
 //
 //   sky_errors [paths a direction and wavelength, 150]
 //
-// Each air and sun is traced twice, for the noise of the truth itself.
+// Each combination of air and sun is traced twice, to measure the truth's own noise.
 
 #include <array>
 #include <cmath>
@@ -47,7 +47,7 @@ std::vector<XyY> AtmosphereAt(const std::vector<Sample>& dome,
   });
 }
 
-/// Of the turbidities from `low` to `high` the one with the least error.
+/// The turbidity from `low` to `high` with the minimum error.
 template <typename SkyOfTurbidity>
 Comparison Best(const std::vector<Sample>& dome, const std::vector<XyY>& truth, double low,
                 double high, const SkyOfTurbidity& sky) {

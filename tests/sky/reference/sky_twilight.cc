@@ -1,9 +1,9 @@
-// The sky's light on level ground through twilight, as a table for docs/measurements/sky.md:
+// Measures skylight on level ground through twilight, as a table for docs/measurements/sky.md:
 //
 //   sky_twilight [paths a direction and wavelength, 100]
 //
-// `atmosphere` at its default and in haze, the path tracer (which has no night: no starlight) down
-// to −9°, and the almanac.
+// Compares `atmosphere`, by default and in haze, the path tracer down to −9° (which has no
+// starlight), and the almanac.
 
 #include <cmath>
 #include <cstdio>

@@ -42,8 +42,8 @@ struct ReferenceDay {
   const char* set;
 };
 
-// A root search in steps of a minute on another library's airless topocentric elevations
-// (astronomy-engine 2.1.19), which takes UTC for UT1 throughout as ours does.
+// A root search in steps of a minute on airless topocentric elevations of another library
+// (astronomy-engine 2.1.19). Like ours it takes UTC for UT1.
 constexpr ReferenceDay kReferenceDays[] = {
     {50.0875, 14.4213, 1, "1955-03-21", "1955-03-21T05:05:01.0Z", "1955-03-21T11:09:46.0Z",
      "1955-03-21T17:15:28.5Z"},
@@ -125,14 +125,15 @@ TEST_F(SunDayTest, HasNrelsSunriseTransitAndSunset) {
   EXPECT_NEAR(SecondsBetween(day.At(SunHorizon::kSunrise).rises[0], day.begin), 6.212067 * 3600.0,
               3.0);
   EXPECT_NEAR(SecondsBetween(day.noons.at(0), day.begin), 11.768045 * 3600.0, 1.0);
-  // Theirs falls on 17 October UT, which is the 16th in that zone; one later, it is 88 s earlier.
+  // Their event falls on 17 October UT, which is the 16th in that zone; a day later it is 88 s
+  // earlier.
   const SunDay eve = CalendarDay(place, "2003-10-16", -7.0);
   ASSERT_EQ(eve.At(SunHorizon::kSunrise).sets.size(), 1u);
   EXPECT_NEAR(SecondsBetween(eve.At(SunHorizon::kSunrise).sets[0], eve.begin), 17.338667 * 3600.0,
               3.0);
 }
 
-// The same library again: what the sun does where a day holds more or less than one of each.
+// The same library: days with more or fewer than one of each event.
 TEST_F(SunDayTest, HoldsTwoSunsetsWhereTheyPassMidnight) {
   const SunDay day = CalendarDay(Place(64.84, -147.72), "2025-07-15", -8.0);
   const HorizonPassages& horizon = day.At(SunHorizon::kSunrise);
@@ -157,7 +158,7 @@ TEST_F(SunDayTest, HoldsNoSunsetWhereTheSunSetsAfterMidnight) {
 }
 
 TEST_F(SunDayTest, FollowsTheCalendarOnEitherSideOfTheDateLine) {
-  // Samoa left out 30 December 2011: its 29th was at UTC-10, its 31st at UTC+14.
+  // Samoa skipped 30 December 2011: its 29th was at UTC-10, its 31st at UTC+14.
   const Observer apia = Place(-13.83, -171.77);
   const SunDay before = CalendarDay(apia, "2011-12-29", -10.0);
   const SunDay after = CalendarDay(apia, "2011-12-31", 14.0);
@@ -180,7 +181,7 @@ TEST_F(SunDayTest, FindsASunThatDipsUnderTheHorizonForFourMinutes) {
   const HorizonPassages& horizon = dips.At(SunHorizon::kSunrise);
   ASSERT_EQ(horizon.sets.size(), 1u);
   ASSERT_EQ(horizon.rises.size(), 1u);
-  // The sun moves along the horizon: a thousandth of a degree is a minute and a half.
+  // The sun moves along the horizon: a thousandth of a degree takes a minute and a half.
   EXPECT_NEAR(SecondsBetween(horizon.sets[0], At("2025-06-20T22:19:43.5Z")), 0.0, 20.0);
   EXPECT_NEAR(SecondsBetween(horizon.rises[0], At("2025-06-20T22:23:44.2Z")), 0.0, 20.0);
   EXPECT_TRUE(CalendarDay(Place(65.74, 25.0), "2025-06-21", 3.0).At(SunHorizon::kSunrise).Always());
@@ -204,7 +205,7 @@ TEST_F(SunDayTest, SaysWhetherTheSunStaysUpOrDown) {
   const HorizonPassages last = horizon("2025-05-17", 2.0);
   EXPECT_EQ(last.sets.size(), 1u);
   EXPECT_EQ(last.rises.size(), 1u);
-  // Polar night still has its civil twilight, white nights have no end to theirs.
+  // Polar night still has civil twilight; white nights have no end of twilight.
   EXPECT_EQ(CalendarDay(tromso, "2025-12-21", 1.0).At(SunHorizon::kCivil).rises.size(), 1u);
   EXPECT_TRUE(CalendarDay(Place(61.0, 30.0), "2025-06-21", 3.0).At(SunHorizon::kCivil).Always());
 }
@@ -218,7 +219,7 @@ TEST_F(SunDayTest, HasOneSunriseAndOneSunsetAYearAtThePoles) {
   const SunDay north_autumn = span(90.0, "2025-09-15"), south_spring = span(-90.0, "2025-09-15");
   const auto expect = [](const std::vector<UtcTime>& found, const char* time) {
     ASSERT_EQ(found.size(), 1u);
-    // A second is 0.016" of elevation: the models' 0.5" between them are half a minute and more.
+    // A second is 0.016" of elevation: the models' difference of 0.5" is half a minute or more.
     EXPECT_NEAR(SecondsBetween(found[0], At(time)), 0.0, 90.0);
   };
   expect(north_spring.At(SunHorizon::kSunrise).rises, "2025-03-18T06:34:42Z");
@@ -227,13 +228,13 @@ TEST_F(SunDayTest, HasOneSunriseAndOneSunsetAYearAtThePoles) {
   EXPECT_EQ(north_autumn.At(SunHorizon::kSunrise).sets.size(), 1u);
   EXPECT_TRUE(north_spring.At(SunHorizon::kSunrise).sets.empty());
   EXPECT_TRUE(south_spring.At(SunHorizon::kSunrise).sets.empty());
-  // It goes round all the same: noon by the meridian of the longitude that was given.
+  // The hour angle still grows: noon is at the meridian of the given longitude.
   EXPECT_EQ(north_spring.noons.size(), 20u);
   EXPECT_EQ(north_spring.midnights.size(), 20u);
 }
 
 TEST_F(SunDayTest, HoldsNoNoonOrTwoWhereTheyPassMidnight) {
-  // A clock twelve hours off: in December noon comes 30 s later every day, in September 21 s
+  // A clock that is twelve hours off. In December noon is 30 s later every day, in September 21 s
   // earlier.
   const auto noons_of_the_year = [](double offset_h) {
     int none = 0, two = 0;
@@ -242,7 +243,7 @@ TEST_F(SunDayTest, HoldsNoNoonOrTwoWhereTheyPassMidnight) {
       const UtcTime begin =
           At("2025-01-01T00:00:00Z").PlusSeconds(86'400.0 * day - 3600 * offset_h);
       const UtcTime end = begin.PlusSeconds(86'400.0);
-      // The transit alone: the hour angle at both ends tells how many there are.
+      // The hour angles at both ends determine the number of transits.
       const bool at_begin = HourAngle(place, begin).value() > 0.0;
       const bool at_end = HourAngle(place, end).value() > 0.0;
       if (at_begin == at_end) continue;
@@ -300,18 +301,18 @@ TEST(SunDay, OfThePapersModelIsWithinItsErrors) {
   const HorizonPassages& horizon = day.At(SunHorizon::kSunrise);
   ASSERT_EQ(horizon.rises.size(), 1u);
   ASSERT_EQ(horizon.sets.size(), 1u);
-  // 1.4 degrees are nine minutes at this latitude.
+  // At this latitude 1.4 degrees take nine minutes.
   EXPECT_NEAR(SecondsBetween(horizon.rises[0], At("2025-09-14T04:38:00Z")), 0.0, 540.0);
   EXPECT_NEAR(SecondsBetween(horizon.sets[0], At("2025-09-14T17:18:00Z")), 0.0, 540.0);
 }
 
 // Meeus 1998, "Astronomical Algorithms", Example 28.a: 1992 October 13, 0h TD: 3.427351 degrees =
-// 822.56 s. His mean sun runs by dynamical, ours by universal time: 0.0027379 x 59 s = 0.16 s less
+// 822.56 s. His mean sun uses dynamical time, ours universal time: 0.0027379 x 59 s = 0.16 s less
 // (Seidelmann 1992, "Explanatory Supplement", section 9.311).
 TEST_F(SunDayTest, KnowsTheEquationOfTime) {
   EXPECT_NEAR(EquationOfTimeSeconds(At("1992-10-12T23:59:00.816Z")), 822.56 - 0.16, 0.06);
-  // Its turning points and zeros as every almanac has them: 11 February -14 min 13 s, 14 May +3 min
-  // 39 s, 26 July -6 min 33 s, 3 November +16 min 28 s.
+  // Turning points and zeros from almanacs: 11 February -14 min 13 s, 14 May +3 min 39 s, 26 July
+  // -6 min 33 s, 3 November +16 min 28 s.
   const auto at_noon = [](const char* date) {
     return EquationOfTimeSeconds(At(std::string(date) + "T12:00:00Z"));
   };
@@ -319,7 +320,7 @@ TEST_F(SunDayTest, KnowsTheEquationOfTime) {
   EXPECT_NEAR(at_noon("2025-05-14"), 219.0, 4.0);
   EXPECT_NEAR(at_noon("2025-07-26"), -393.0, 4.0);
   EXPECT_NEAR(at_noon("2025-11-03"), 988.0, 4.0);
-  // UT1 shifts the sun and the clock alike.
+  // UT1 shifts the sun and the clock equally.
   EXPECT_NEAR(EquationOfTimeSeconds(At("2025-02-11T12:00:00Z"), 0.5), at_noon("2025-02-11"), 2e-3);
 }
 

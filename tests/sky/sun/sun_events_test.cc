@@ -78,14 +78,14 @@ TEST_F(SunEventsTest, HaveTheirTwilightsAroundThem) {
     EXPECT_GT(*events.dawns[h], *events.dawns[h + 1]);
     EXPECT_LT(*events.dusks[h], *events.dusks[h + 1]);
   }
-  // In the polar night there is a civil twilight without a sunrise.
+  // In the polar night civil twilight occurs without a sunrise.
   const SunEvents night = ComputeSunEvents(Place(69.65, 18.96), At("2025-12-21T12:00:00Z"));
   EXPECT_TRUE(night.Dawn(SunHorizon::kCivil) && night.Dusk(SunHorizon::kCivil));
   EXPECT_FALSE(night.sunrise);
 }
 
-// Between midnight sun and ordinary days the sunset falls after midnight: it belongs to the noon
-// before it all the same.
+// Between midnight sun and ordinary days the sunset falls after midnight. It still belongs to the
+// preceding noon.
 TEST_F(SunEventsTest, PairASunsetAfterMidnightWithTheNoonBefore) {
   const Observer fairbanks = Place(64.84, -147.72);
   const SunEvents events = ComputeSunEvents(fairbanks, At("2025-06-10T22:00:00Z"));
@@ -96,8 +96,8 @@ TEST_F(SunEventsTest, PairASunsetAfterMidnightWithTheNoonBefore) {
   EXPECT_GT(SecondsBetween(*events.sunset, *events.sunrise), 21 * 3600.0);
 }
 
-// A sun that dips under the horizon for minutes at midnight: each such dip ends one day's light and
-// begins the next one's, and none is lost between the days.
+// A sun that sets for minutes at midnight. Each such dip ends one day's light and begins the next
+// one's; no event may be lost.
 TEST_F(SunEventsTest, LoseNoPassageBetweenTheDays) {
   const Observer place = Place(65.73, 25.0);
   for (int day = 0; day < 20; ++day) {

@@ -1,5 +1,5 @@
-// What each misprint of Kolivand & Sunar 2014, Eqs. 1–4, does: the equations with each misprint as
-// a switch, against the precise sun at random places and times from 1950 to 2100.
+// Measures the effect of each misprint of Kolivand & Sunar 2014, Eqs. 1–4. Each misprint is a
+// switch. The reference is the precise sun at random places and times from 1950 to 2100.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -136,7 +136,7 @@ TEST_F(PaperSun, IsWithin1Point42DegreesAnd0Point39Rms) {
   EXPECT_LE(errors.elevation_max, 1.19);
 }
 
-// The errors of the paper's text as it is corrected step by step, measured independently.
+// Errors of the paper's text as it is corrected step by step, measured independently.
 TEST_F(PaperSun, HasItsKnownErrorsAtEveryStepOfTheCorrection) {
   Misprints m = kAsPrinted;
   const auto expect = [&](double separation_rms, double elevation_rms, const char* step) {
@@ -195,7 +195,7 @@ TEST_F(PaperSun, NeedsJMinus81InEquation2) {
 TEST_F(PaperSun, NeedsAPlusInEquation4) {
   const Errors errors = MeasureWith({.denominator = true, .numerator = true});
   EXPECT_NEAR(errors.separation_rms, 122.8, 5.0);
-  EXPECT_LE(errors.elevation_max, 1.19);  // The azimuth alone is wrong.
+  EXPECT_LE(errors.elevation_max, 1.19);  // Only the azimuth is wrong.
 }
 
 TEST_F(PaperSun, NeedsTheQuadrantInEquation4) {

@@ -37,10 +37,10 @@ TEST_F(PreciseSun, GivesNrelsWorkedExampleToAThousandthOfADegree) {
   const SunPosition sun = ComputeSunPosition(observer, At("2003-10-17T12:30:30-07:00"));
   EXPECT_NEAR(90.0 - ToDegrees(sun.elevation_refracted), 50.11162, 0.001);
   EXPECT_NEAR(ToDegrees(sun.azimuth), 194.34024, 0.001);
-  EXPECT_NEAR(sun.distance_au, 0.9965422974, 5e-5);  // Theirs is from the Earth's centre.
+  EXPECT_NEAR(sun.distance_au, 0.9965422974, 5e-5);  // Their distance is from the Earth's centre.
 }
 
-// Of the bundled recordings' descriptions: astronomy-engine's apparent, airless positions.
+// From the bundled recordings' descriptions: apparent, airless positions by astronomy-engine.
 TEST_F(PreciseSun, AgreesWithAnotherAstronomyLibrary) {
   const Observer prague = Place(50.0875, 14.4213, 220.0);
   struct Reference {
@@ -63,9 +63,9 @@ struct ReferencePosition {
   double azimuth_deg, elevation_deg;
 };
 
-// Another library with another ephemeris (astronomy-engine 2.1.19: VSOP87 cut short, apparent,
-// airless, topocentric) at random places and times, some of them at the poles, the equator, a
-// tropic and a polar circle.
+// Positions by another library and ephemeris (astronomy-engine 2.1.19: truncated VSOP87, apparent,
+// airless, topocentric) at random places and times. Some are at the poles, the equator, a tropic
+// and a polar circle.
 constexpr ReferencePosition kReferencePositions[] = {
     {"2045-07-03T17:29:47Z", 90, 55.8555, 1219, 317.19612, 22.87399},
     {"2051-08-23T02:23:20Z", -90, 178.5172, 2718, 326.34666, -11.48561},
@@ -136,13 +136,13 @@ TEST_F(PreciseSun, HasTheAlmanacsDistances) {
 TEST_F(PreciseSun, CrossesTheEquatorAtTheEquinoxes) {
   for (const char* time : {"2024-03-20T03:06:00Z", "2050-09-22T19:28:00Z"}) {
     const SunPosition sun = ComputeSunPosition(Place(90.0, 0.0), At(time));
-    // 1′ of declination an hour: 0.0003° a minute; parallax lowers the sun by 0.0024°.
+    // 1′ of declination per hour: 0.0003° per minute; parallax lowers the sun by 0.0024°.
     EXPECT_NEAR(ToDegrees(sun.elevation), -0.0024, 0.0008) << time;
   }
 }
 
 TEST_F(PreciseSun, LosesAltitudeToParallaxAndGainsItWithHeight) {
-  // A mountaineer's and a diver's sun differ by the angle that the height is seen under.
+  // The suns of a mountaineer and a diver differ by the angle that the height subtends.
   const UtcTime time = At("2025-03-20T06:00:00Z");
   const double low = ToDegrees(ComputeSunPosition(Place(0, 0, 0), time).elevation);
   const double high = ToDegrees(ComputeSunPosition(Place(0, 0, 100'000.0), time).elevation);
@@ -151,9 +151,9 @@ TEST_F(PreciseSun, LosesAltitudeToParallaxAndGainsItWithHeight) {
 }
 
 TEST_F(PreciseSun, MovesWithoutJumpsOverTheEdgesOfYears) {
-  // Leap seconds, ends of tables and forecasts: 2 s of solar motion are 30″ on the sky, 60″ in
-  // azimuth here; what is much more than that is a jump. The largest is the leap second itself,
-  // 15″, which POSIX time skips.
+  // Leap seconds, ends of tables and forecasts. 2 s of solar motion are 30″ on the sky and 60″ in
+  // azimuth here; a much larger change is a jump. The maximum is the leap second itself, 15″, which
+  // POSIX time skips.
   const Observer place = Place(48.0, 11.0);
   for (const char* edge :
        {"1950-01-01T00:00:00Z", "1960-01-01T00:00:00Z", "1972-01-01T00:00:00Z",

@@ -1,4 +1,4 @@
-// The marker as a light meter under leaves, and where a shadow leaves it little of the sun.
+// Tests exposure estimates from a marker under leaves or with little sunlight beside a shadow.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,9 +21,9 @@ using testing::kSunLux;
 using testing::MeterFor;
 using testing::Photograph;
 
-/// A marker under leaves that leave between a quarter and all of the sun; no edge divides light
-/// from shade. `blue`: how much of that blue shows, as under a blue sky. `exposure`: of
-/// kExposureScale, clipped at white.
+/// A marker under leaves that transmit between a quarter and all of the sun, without a shadow edge.
+/// `blue`: share of that variation in the blue channel, as under a blue sky. `exposure`: factor on
+/// kExposureScale; values are clipped at white.
 RgbImage UnderLeaves(double blue, double* mean, double exposure = 1.0) {
   RgbImage picture = Photograph(kExposureScale, -1.0);
   for (int y = 0; y < picture.height(); ++y) {
@@ -57,7 +57,7 @@ TEST(MarkerLightMeter, TakesTheBrightestSamplesUnderLeaves) {
 }
 
 TEST(MarkerLightMeter, TakesTheSameSamplesUnderLeavesForEachChannel) {
-  // So little that blue by itself would be taken for evenly lit, at the middle of its light.
+  // The variation is so small that the blue channel alone would count as evenly lit, at its mean.
   double mean = 0.0;
   const RgbImage picture = UnderLeaves(0.35, &mean);
   const auto estimate = MeterFor(-1.0).Measure(picture.view(), kCamera, kFromAbove);
@@ -72,7 +72,7 @@ TEST(MarkerLightMeter, TakesTheSameSamplesUnderLeavesForEachChannel) {
 TEST(MarkerLightMeter, TakesTheSameSamplesUnderLeavesWhereOneChannelIsClipped) {
   double mean = 0.0;
   RgbImage picture = UnderLeaves(1.0, &mean);
-  // Half as much again of red: clipped on the very brightest spots, though not on most.
+  // 1.5 times as much red is clipped at the brightest samples, but not at most samples.
   for (int y = 0; y < picture.height(); ++y) {
     for (int x = 0; x < picture.width(); ++x) {
       const double red = 1.5 * LinearFromSrgb8()[picture(x, y, 0)];
@@ -89,7 +89,7 @@ TEST(MarkerLightMeter, TakesTheSameSamplesUnderLeavesWhereOneChannelIsClipped) {
 }
 
 TEST(MarkerLightMeter, ReadsTheSunUnderLeavesWhereItClipsEvenMostOfTheMarker) {
-  // White clips wherever more than half of the sun is: most spots that are left are half-lit.
+  // White clips wherever more than half of the sun arrives: most remaining samples are half-lit.
   for (const double exposure : {1.6, 2.2}) {
     double mean = 0.0;
     const RgbImage picture = UnderLeaves(1.0, &mean, exposure);
@@ -102,8 +102,9 @@ TEST(MarkerLightMeter, ReadsTheSunUnderLeavesWhereItClipsEvenMostOfTheMarker) {
   }
 }
 
-/// Phantoms leave the marker's right side in the sun, and something else of that side a strip of
-/// `sunlit_m`. `half_light`: of the strip's light, where it ends; towards its middle all is left.
+/// Phantoms leave the marker's right side sunlit. An unmodelled shadow leaves of that side only a
+/// strip of width `sunlit_m`. `half_light`: share of the light at the strip's ends; its centre is
+/// fully lit.
 RgbImage SunlitStrip(double sunlit_m, double half_light) {
   RgbImage picture = Photograph(kExposureScale, 1.0);
   const RgbImage sunlit = Photograph(kExposureScale, -1.0);
@@ -139,7 +140,7 @@ TEST(MarkerLightMeter, TakesAFewSamplesOfUnevenLightForASampleBetweenLeaves) {
 }
 
 TEST(MarkerLightMeter, ReportsNothingWhereAShadowLeavesFewerThanSixSamplesInTheSun) {
-  // Of the right side's pairs something covers half, so that few are enough for a level.
+  // Half of the right side's pairs are covered, so that a few pairs suffice for a level.
   const auto measure = [](double sunlit_m) {
     RgbImage picture = SunlitStrip(sunlit_m, 1.0);
     for (int y = 0; y < 114; ++y) {

@@ -37,7 +37,7 @@ TEST(MarkerLightMeter, ReadsExposureAndWhiteBalanceOfASunlitMarker) {
 }
 
 TEST(MarkerLightMeter, EstimatesHowCertainItsReadingIs) {
-  // More noise in green: gains scatter from picture to picture as each says of itself.
+  // Green has more noise. The scatter of the estimates must equal the reported errors.
   constexpr int kPictures = 60;
   const RgbImage clean = Photograph(kExposureScale, -1.0);
   const MarkerLightMeter meter = MeterFor(-1.0);
@@ -108,9 +108,9 @@ TEST(MarkerLightMeter, EstimatesHowDeepTheShadowIsThatDividesTheMarker) {
     EXPECT_GT(shadow->lit.xyz.x, 0.05);
     EXPECT_LT(shadow->shaded.xyz.x, 0.05);
   };
-  expect(MeterFor(-1.0), 0.05, 0.0);   // Of something that no phantom stands for,
-  expect(MeterFor(-1.0), 0.05, 0.05);  // through a veil,
-  expect(MeterFor(0.05), 0.05, 0.0);   // and of a phantom.
+  expect(MeterFor(-1.0), 0.05, 0.0);   // Of an unmodelled shadow,
+  expect(MeterFor(-1.0), 0.05, 0.05);  // through veiling glare,
+  expect(MeterFor(0.05), 0.05, 0.0);   // and of a phantom's shadow.
 }
 
 TEST(MarkerLightMeter, TakesNoCoverAndNoLeavesForAShadowsEdge) {
@@ -120,7 +120,7 @@ TEST(MarkerLightMeter, TakesNoCoverAndNoLeavesForAShadowsEdge) {
     return meter.FindShadow(picture.view(), kCamera, kFromAbove);
   };
   EXPECT_FALSE(shadow(Photograph(kExposureScale, -1.0)));
-  // Grey things on the marker, in the sun: over all of it to the left, over white or black alone.
+  // Sunlit grey covers on the marker: over the whole left part, over white alone, over black alone.
   const auto with_cover = [](double share_of_white, const auto& covers) {
     RgbImage picture = Photograph(kExposureScale, -1.0);
     const RgbImage grey = Photograph(kExposureScale * share_of_white, -1.0, 0.0,
@@ -133,7 +133,7 @@ TEST(MarkerLightMeter, TakesNoCoverAndNoLeavesForAShadowsEdge) {
     }
     return picture;
   };
-  constexpr int kEdgePx = 60;  // The black square's.
+  constexpr int kEdgePx = 60;  // Edge of the black square.
   EXPECT_FALSE(shadow(with_cover(0.3, [](int x, int) { return x < -20; })));
   EXPECT_FALSE(shadow(with_cover(0.3, [](int x, int) { return x < -kEdgePx; })));
   EXPECT_FALSE(
@@ -157,7 +157,7 @@ TEST(MarkerLightMeter, ReadsAnEvenMarkerThroughNoiseAndGlareWhereItBeginsToClip)
   std::mt19937 random(11);
   std::normal_distribution<double> noise(0.0, 4.0);
   double before = 1.0;
-  // Red clips from 1.4 on, green from 1.7, blue from 2.1.
+  // Red clips from exposure 1.4 on, green from 1.7, blue from 2.1.
   for (int step = 0; step < 70; ++step) {
     const double exposure = 1.2 + 0.02 * step;
     RgbImage picture = Photograph(kExposureScale * exposure, -1.0, kVeil);
@@ -169,7 +169,7 @@ TEST(MarkerLightMeter, ReadsAnEvenMarkerThroughNoiseAndGlareWhereItBeginsToClip)
     ASSERT_TRUE(estimate) << exposure;
     EXPECT_FALSE(estimate->dappled) << exposure;
     const LinearRgb off = estimate->exposure_scale / (kExposureScale * exposure);
-    // Blacks alone have the glare in them: 0.006 of 0.05.
+    // Estimates from black modules alone contain the glare: 0.006 of 0.05.
     const double most = exposure < 2.0 ? 0.07 : 0.18;
     EXPECT_NEAR(off.r, 1.0, most) << exposure;
     EXPECT_NEAR(off.g, 1.0, most) << exposure;
@@ -184,7 +184,7 @@ TEST(MarkerLightMeter, ReadsAnEvenMarkerThroughNoiseAndGlareWhereItBeginsToClip)
 
 TEST(MarkerLightMeter, ReadsCodesByTheCamerasOwnResponse) {
   const CameraResponse gentle = testing::GentleResponse();
-  // Well exposed, and so bright that the white clips.
+  // Well exposed, and so bright that the white is clipped.
   for (const double exposure : {1.0, 3.0}) {
     const RgbImage picture = Photograph(kExposureScale * exposure, -1.0, 0.0, kMarker, gentle);
     ExpectExposureScale(MeterFor(-1.0, gentle).Measure(picture.view(), kCamera, kFromAbove),
@@ -199,7 +199,7 @@ TEST(MarkerLightMeter, ReadsCodesByTheCamerasOwnResponse) {
 TEST(MarkerLightMeter, ReportsNothingOfAMarkerWithBlackOutsideAndWhiteInside) {
   scene::MarkerReflectance reversed = kMarker;
   std::swap(reversed.albedo_black, reversed.albedo_white);
-  // Dark, well exposed, and so bright that the white clips.
+  // Dark, well exposed, and so bright that the white is clipped.
   for (const double exposure : {0.2, 1.0, 1.3, 3.0}) {
     const RgbImage picture = Photograph(kExposureScale * exposure, -1.0, 0.0, reversed);
     EXPECT_FALSE(MeterFor(-1.0).Measure(picture.view(), kCamera, kFromAbove).has_value())
@@ -215,7 +215,7 @@ TEST(MarkerLightMeter, ReportsNothingOfAnEvenlyColoredSurface) {
 }
 
 TEST(MarkerLightMeter, ReadsThePartOfAMarkerThatGlareLeaves) {
-  // A strip over the marker's right side reflects the sun: there black looks like white.
+  // A strip over the marker's right side reflects the sun: black looks like white there.
   RgbImage picture = Photograph(kExposureScale, -1.0);
   for (int y = 0; y < picture.height(); ++y) {
     for (int x = 200; x < picture.width(); ++x) {

@@ -13,12 +13,12 @@ namespace {
 
 constexpr double kSize = 0.4;
 constexpr double kWhite = 0.80, kBlack = 0.04, kBlackShare = kBlack / (kWhite - kBlack);
-// A sun whose light is 4.7 times the sky's, which is bluer.
+// The sun is 4.7 times as strong as the sky, which is bluer.
 const LinearRgb kSky{0.9, 1.0, 1.25}, kSun{4.9, 4.7, 4.3};
 const LinearRgb kDepth{std::log1p(kSun.r / kSky.r / 2), std::log1p(kSun.g / kSky.g / 2),
                        std::log1p(kSun.b / kSky.b / 2)};
 
-/// Pairs along a marker's edges, where `sun` (0…1) of the sun arrives, under a veil.
+/// Pairs along a marker's edges with a share `sun` (0…1) of the sun, under veiling glare.
 std::vector<MarkerPair> PairsIn(const std::function<double(Vec3)>& sun, double veil = 0.0) {
   std::vector<MarkerPair> pairs;
   constexpr int kASide = 40;
@@ -39,7 +39,7 @@ std::optional<MarkerShadowEdge> Find(const std::vector<MarkerPair>& pairs) {
   return FindMarkerShadowEdge(pairs, kDepth, kBlackShare);
 }
 
-/// Sunlight across a shadow's edge through `at`, of a sun's disc: `width_m` from all to nothing.
+/// Sun share across a shadow edge through `at`; the penumbra is `width_m` wide.
 std::function<double(Vec3)> Edge(double angle, double at_m, double width_m) {
   return [=](Vec3 p) {
     const double across = p.x * std::cos(angle) + p.y * std::sin(angle) - at_m;
@@ -65,13 +65,13 @@ TEST(MarkerShadowEdge, FindsHowDeepASharpShadowIs) {
 }
 
 TEST(MarkerShadowEdge, LeavesHalfLightAlone) {
-  // Of a roof or a crown far off: as wide as half of the marker and more. Wherever its edge lies.
+  // The penumbra of a distant roof or tree: at least half as wide as the marker, at any position.
   for (const double width : {0.5, 1.0, 1.5, 2.0, 4.0}) {
     for (int step = 0; step < 16; ++step) {
       const double angle = 0.1 * step;
       for (const double at : {-0.2, -0.1, 0.0, 0.1, 0.2}) {
         const auto shadow = Find(PairsIn(Edge(angle, at, width * kSize)));
-        // Where it reaches a corner alone, most of the pairs are at either end of it.
+        // Where it covers only a corner, most pairs are fully lit or fully shaded.
         const double off =
             shadow ? std::fabs(shadow->contrast.g - std::log1p(kSun.g / kSky.g)) : 0.0;
         EXPECT_LT(off, 0.15) << width << " " << angle << " " << at;
@@ -93,10 +93,10 @@ TEST(MarkerShadowEdge, TakesNothingThatLiesOnTheMarkerForAShadow) {
     }
     return pairs;
   };
-  // The same as a shadow would, to see that nothing else keeps it out.
+  // Control: a cover with the contrast of a shadow is accepted.
   EXPECT_TRUE(Find(covered(kWhite / 4, kBlack / 4)));
   EXPECT_FALSE(Find(covered(kWhite / 4, kBlack)));        // Over the white alone,
-  EXPECT_FALSE(Find(covered(kWhite / 4, 0.9 * kBlack)));  // which takes of the black's light, too,
+  EXPECT_FALSE(Find(covered(kWhite / 4, 0.9 * kBlack)));  // with some of the black's light,
   EXPECT_FALSE(Find(covered(kWhite, 0.75 * kWhite)));     // and over the black.
 }
 

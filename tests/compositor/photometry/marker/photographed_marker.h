@@ -1,6 +1,6 @@
 #pragma once
 
-// A marker photographed from above in light that is known, and its light meter.
+// A marker photographed from above in known light, and its exposure estimator.
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ namespace pleinair::compositor::testing {
 
 inline constexpr double kAmbientLux = 12000, kSunLux = 80000;
 
-/// Light from straight above and an even sky.
+/// Light from directly above and a uniform sky.
 class OverheadSun : public sky::SkyModel {
  public:
   LinearRgb SkyRadiance(Direction<World>) const override { return {1, 1, 1}; }
@@ -29,7 +29,7 @@ class OverheadSun : public sky::SkyModel {
   Direction<World> ToSun() const override { return {{0, 0, 1}}; }
 };
 
-/// Phantoms that leave half the marker (x below `shadow_to_x_m`) in shadow.
+/// Phantoms whose shadow covers the marker where x is below `shadow_to_x_m`.
 class HalfShadow : public PhantomRays {
  public:
   explicit HalfShadow(double shadow_to_x_m) : shadow_to_x_m_(shadow_to_x_m) {}
@@ -54,8 +54,8 @@ inline const CameraModel kCamera{
 // One metre above the marker, looking straight down.
 inline const Transform<Camera, Marker> kFromAbove{{{1, 0, 0, 0, -1, 0, 0, 0, -1}}, {0, 0, 1}};
 
-/// The marker in the light of OverheadSun; left of `shadow_to_x_m` in shadow, and an even veil
-/// added.
+/// The marker in the light of OverheadSun, shaded left of `shadow_to_x_m`, with uniform veiling
+/// glare.
 inline RgbImage Photograph(LinearRgb exposure_scale, double shadow_to_x_m, double veil = 0.0,
                            const scene::MarkerReflectance& marker = kMarker,
                            const CameraResponse& response = {}) {

@@ -1,4 +1,4 @@
-// What is told of shade that no phantom explains, on pictures whose light is known.
+// Tests the estimates of unmodelled shadows on images with known light.
 #include "compositor/photometry/shade/unmodelled_shadows.h"
 
 #include <gtest/gtest.h>
@@ -55,7 +55,7 @@ TEST_F(ShadowLight, EstimatesTheSkyBesideTheSunFromHowDeepTheShadeOfTreesIs) {
               2 * estimate.log_uncertainty);
     EXPECT_GT(estimate.log_uncertainty, 0.2) << "it is no phantom's edge";
   }
-  // Without trees there is nothing to read.
+  // Without trees there is no sun-to-sky ratio to estimate.
   const UnmodelledShadows open = Shade(Look({}), yard_->model(), yard_->phantoms());
   EXPECT_FALSE(open.IsWide());
   EXPECT_EQ(EstimateRatioFromShade(yard_->phantoms(), open, yard_->model(), Mat3{}).sun,
@@ -102,8 +102,7 @@ TEST_F(ShadowLight, EstimatesHowMuchLiesInTheShadeOfTrees) {
   const SurfaceSamples samples = Look({.shaded = tree});
   const UnmodelledShadows unmodelled = Shade(samples, yard_->model(), yard_->phantoms());
   EXPECT_TRUE(unmodelled.Matters());
-  // As much as there is: of the surface samples that the model has in the sun, those under the
-  // tree.
+  // The true share: surface samples under the tree among those sunlit in the model.
   int lit = 0, under = 0;
   for (const SurfaceSample& surface_sample : samples.samples()) {
     const Vec3 to_sun = yard_->model().ToSun().xyz;
@@ -118,7 +117,8 @@ TEST_F(ShadowLight, EstimatesHowMuchLiesInTheShadeOfTrees) {
 }
 
 TEST_F(ShadowLight, MapsWhereTheSunComesThroughTrees) {
-  // Stripes across the sun's rays, as of things so far off that they shade whatever a ray meets.
+  // Stripes perpendicular to the sun's rays, cast by distant objects. They shade all points along a
+  // ray.
   const Vec3 to_sun = Normalized(yard_->model().ToSun().xyz);
   const Vec3 across = Normalized(Cross(to_sun, kUp));
   const auto tree = [&](Vec3 p) { return std::sin(7 * Dot(p, across)) > 0.0; };
@@ -130,7 +130,7 @@ TEST_F(ShadowLight, MapsWhereTheSunComesThroughTrees) {
     for (int row = -8; row <= 2; ++row) {
       const Vec3 ground{0.1 * column, 0.1 * row, 0.0};
       if (!yard_->phantoms().IsUnoccluded({ground}, to_sun)) continue;
-      // On the way to the ground, where something virtual would be.
+      // Above the ground along the ray, where a virtual object could be.
       for (const double above : {0.0, 0.3, 0.6}) {
         if (std::fabs(std::sin(7 * Dot(ground, across))) < 0.3) continue;
         ++points;
@@ -144,7 +144,7 @@ TEST_F(ShadowLight, MapsWhereTheSunComesThroughTrees) {
 }
 
 TEST(SunTransmittanceMap, IsEmptyWhereAFewSamplesLieInOppositeCorners) {
-  // Either direction's quantiles leave out one of them.
+  // The quantiles along either axis exclude one of them.
   const SunTransmittanceMap aim =
       BuildSunTransmittanceMap({0.3, 0.2, 1.0}, std::vector<SunlitSample>{{{}, 1, 0.1}});
   const std::vector<SunlitSample> surface_samples{{aim.across_y * 1.0, 0.3, 0.1},
@@ -155,7 +155,7 @@ TEST(SunTransmittanceMap, IsEmptyWhereAFewSamplesLieInOppositeCorners) {
 }
 
 TEST_F(ShadowLight, EstimatesFromTheGroundHowMuchDarkerThanTheSunTheMarkerIs) {
-  // The frames' exposure scale is read from a marker that has 0.7 of the open light.
+  // The frames' exposure scale comes from a marker in 0.7 of the sunlit light.
   const auto tree = [](Vec3 p) { return p.x + p.y < -0.6; };
   SurfaceSamples samples(yard_->phantoms(), yard_->camera(), yard_->marker());
   constexpr double kOnMarker = 0.7;
@@ -165,14 +165,14 @@ TEST_F(ShadowLight, EstimatesFromTheGroundHowMuchDarkerThanTheSunTheMarkerIs) {
                      {exposure_scale, exposure_scale, exposure_scale});
   }
   const UnmodelledShadows unmodelled = Shade(samples, yard_->model(), yard_->phantoms());
-  // The stated colors are not the paving's own.
+  // The description's colors differ from the paving's.
   EXPECT_NEAR(unmodelled.sunlit_scale.ratio * kOnMarker, 1.0, 0.12);
   EXPECT_NEAR(unmodelled.on_marker.sun.g, yard_->model().SunNormalIrradiance().g * yard_->ToSun().z,
               1.0);
 }
 
-/// The yard as a marker in the shade of a tree has it: its exposure scale is too high by that
-/// shade's depth.
+/// Samples of the yard with the exposure scale of a marker in a tree's shadow. It is too high by
+/// the shadow's ratio.
 SurfaceSamples FromAShadedMarker(const PhotographedYard& yard, PhotographedYard::Light light,
                                  double* true_exposure_scale) {
   light.colors_as_described = true;
@@ -189,7 +189,7 @@ SurfaceSamples FromAShadedMarker(const PhotographedYard& yard, PhotographedYard:
 }
 
 TEST_F(ShadowLight, EstimatesByOtherSurfacesThatPrintAndGroundLieInShadeAsAWhole) {
-  // On the ground there is nothing to compare with; a part of what stands on it has the sun.
+  // The ground offers no comparison; part of what stands on it is sunlit.
   double true_exposure_scale = 0.0;
   const SurfaceSamples samples = FromAShadedMarker(
       *yard_, {.shaded = [](Vec3 p) { return p.z < 0.02 || p.x < -0.5; }}, &true_exposure_scale);
@@ -200,7 +200,7 @@ TEST_F(ShadowLight, EstimatesByOtherSurfacesThatPrintAndGroundLieInShadeAsAWhole
   EXPECT_TRUE(unmodelled.IsWide());
   ASSERT_FALSE(unmodelled.sun_transmittance.share.empty());
   EXPECT_LT(unmodelled.sun_transmittance.At({0.2, -0.3, 0.0}), 0.2) << "beside the print";
-  // How deep the shade is tells the sky's strength, though no edge of it is to be seen.
+  // The depth of the shadow determines the sky's strength without any visible edge.
   UnmodelledShadows edgeless = unmodelled;
   edgeless.crossings.clear();
   const SunSkyRatio estimate =
@@ -212,7 +212,8 @@ TEST_F(ShadowLight, EstimatesByOtherSurfacesThatPrintAndGroundLieInShadeAsAWhole
 }
 
 TEST_F(ShadowLight, BelievesTheMarkerWhereTheGroundShowsSunAndShade) {
-  // Half the ground lies in a tree's shade, the marker does not; the bricks are brighter than said.
+  // Half the ground lies in a tree's shadow, the marker does not. The bricks are brighter than
+  // described.
   const auto tree = [](Vec3 p) { return p.x + p.y < -0.6; };
   SurfaceSamples samples(yard_->phantoms(), yard_->camera(), yard_->marker());
   for (const int i : {0, 1}) {
@@ -223,9 +224,9 @@ TEST_F(ShadowLight, BelievesTheMarkerWhereTheGroundShowsSunAndShade) {
 }
 
 TEST_F(ShadowLight, BelievesSurfacesOfTwoColorsOfWhichOneIsStatedTooDark) {
-  // The marker has a good half of the open light. What stands on the ground is brighter than said,
-  // so that it asks for more exposure scale than the ground does, whose sun and shade contradict
-  // it; that the marker is too dark both say.
+  // The marker receives 0.57 of the sunlit light. Objects on the ground are brighter than
+  // described, so they imply a larger correction than the ground. The ground's sun and shadow
+  // contradict it. Both imply that the marker is too dark.
   constexpr double kOnMarker = 0.57, kBrighter = 1.4;
   SurfaceSamples samples(yard_->phantoms(), yard_->camera(), yard_->marker());
   for (const int i : {0, 1}) {
@@ -243,8 +244,9 @@ TEST_F(ShadowLight, BelievesSurfacesOfTwoColorsOfWhichOneIsStatedTooDark) {
 }
 
 TEST_F(ShadowLight, SeesBesideTheMarkerThatItLiesInTheGroundsShade) {
-  // The ground's bright part, in half-light, is no brighter than the open sun would be if the
-  // marker lay in it: it seems to lie partly in the sun, against the wall, which has all of it.
+  // The ground's bright part is half-lit. It looks as bright as sunlit ground would if the marker
+  // were sunlit. Alone it would suggest a partly sunlit marker; the fully sunlit wall contradicts
+  // it.
   double true_exposure_scale = 0.0;
   const auto half_light = [](Vec3 p) { return p.z < 0.02 && p.x > 0.45 ? 2.2 : 1.0; };
   const SurfaceSamples samples = FromAShadedMarker(
@@ -275,7 +277,7 @@ TEST_F(ShadowLight, TakesADarkMatBeneathTheMarkerForNoShade) {
 }
 
 TEST_F(ShadowLight, TakesAPatternBesideTheMarkerForNoShadeUnderAFaintSun) {
-  // A shadow is no deeper than paving that is a fifth darker around the marker.
+  // Paving a fifth darker around the marker looks as dark as a shadow under this sun.
   constexpr double kFaint = 0.08;
   const ScaledSky faint(yard_->model(), {1, 1, 1}, {kFaint, kFaint, kFaint});
   const auto darker = [](Vec3 p) {
@@ -298,8 +300,8 @@ TEST_F(ShadowLight, TakesAPatternBesideTheMarkerForNoShadeUnderAFaintSun) {
 }
 
 TEST(UnmodelledShadows, EstimatesHowMuchDarkerThanTheSunAMarkerOnAWallIs) {
-  // The paving is a wall, what stands on it an awning; under a sky as bright as the sun's light,
-  // of which a wall sees half.
+  // The paving is a wall and the objects on it are awnings. The sky is as bright as the sun's
+  // light, and a wall sees half of it.
   const Mat3 on_wall{{1, 0, 0, 0, 0, 1, 0, -1, 0}};
   const PhotographedYard yard({-0.5, 0.6, 0.62}, {10e3, 12e3, 14e3}, on_wall);
   const MarkerLightMeter meter(yard.marker(), yard.phantoms(), yard.model(), on_wall);

@@ -14,8 +14,8 @@
 
 namespace pleinair::devices {
 
-/// A driver that is none: nodes, one camera's formats and controls, buffers that a test fills. One
-/// thread.
+/// A simulated driver: nodes, the formats and controls of one camera, and buffers that a test
+/// fills. Not thread-safe.
 class FakeV4l2 : public V4l2Io {
  public:
   struct FakeNode {
@@ -26,11 +26,11 @@ class FakeV4l2 : public V4l2Io {
   std::map<std::string, FakeNode> nodes{{"/dev/video0", {"0001"}}};
   std::vector<__u32> formats{V4L2_PIX_FMT_YUYV, V4L2_PIX_FMT_MJPEG};
   v4l2_pix_format pixels{};
-  std::map<__u32, int> controls;         ///< Value by id; those missing are lacking.
-  std::vector<std::string> calls;        ///< Controls as they were set: "id=value".
+  std::map<__u32, int> controls;         ///< Value by id; other controls do not exist.
+  std::vector<std::string> calls;        ///< Control writes in order: "id=value".
   std::map<unsigned long, int> failing;  ///< Error number by request.
   int poll_events = POLLIN;
-  v4l2_buffer next{};  ///< What VIDIOC_DQBUF gives.
+  v4l2_buffer next{};  ///< Result of VIDIOC_DQBUF.
   std::string memory = std::string(4096, 'x');
   std::set<int> open_fds;
   int maps = 0;
@@ -99,7 +99,7 @@ class FakeV4l2 : public V4l2Io {
         return 0;
       case VIDIOC_S_FMT: {
         v4l2_pix_format& requested = static_cast<v4l2_format*>(argument)->fmt.pix;
-        requested.width = 8;  // All it can do.
+        requested.width = 8;  // The only supported size.
         requested.height = 4;
         requested.bytesperline = 16;
         requested.field = V4L2_FIELD_NONE;
@@ -147,7 +147,7 @@ class FakeV4l2 : public V4l2Io {
       case VIDIOC_S_CTRL: {
         const auto* control = static_cast<v4l2_control*>(argument);
         calls.push_back(std::to_string(control->id) + "=" + std::to_string(control->value));
-        // As uvcvideo does: the value is refused while the automatism is on.
+        // As uvcvideo: the value is rejected while automatic control is on.
         if (control->id == V4L2_CID_EXPOSURE_ABSOLUTE &&
             controls[V4L2_CID_EXPOSURE_AUTO] == V4L2_EXPOSURE_APERTURE_PRIORITY) {
           return -EACCES;
