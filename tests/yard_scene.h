@@ -8,8 +8,8 @@
 
 namespace pleinair::tests {
 
-/// What is said of a photographed yard, on a clear day: the heading puts the time's sun `off_deg`
-/// beside where the yard's stands. That one stands as high as the sun at 13:50 in September, about.
+/// Scene description of a photographed yard on a clear day. The heading puts the sun `off_deg` off
+/// the yard's true sun. Its elevation is about that at 13:50 in September.
 inline scene::SceneDescription YardScene(const compositor::testing::PhotographedYard& yard,
                                          double off_deg, UtcTime time) {
   scene::SceneDescription scene;

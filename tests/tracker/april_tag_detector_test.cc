@@ -57,8 +57,8 @@ TEST(AprilTagDetector, GivesCornersInReadingOrderHoweverThePrintIsTurned) {
   }
 }
 
-// Half a pixel off in both axes is what a mistaken pixel origin gives. The shift of the edges
-// towards black, an effect of the sRGB curve, nearly cancels in the mean of the four corners.
+// A wrong pixel origin gives an offset of half a pixel in both axes. The edge shift towards black,
+// an effect of the sRGB curve, nearly cancels in the mean of four corners.
 TEST(AprilTagDetector, PutsPixelCentresAtIntegers) {
   const CameraModel camera = Pinhole();
   const auto detector = CreateAprilTagDetector({"tag36h11"});

@@ -2,13 +2,13 @@
 
 namespace pleinair::tracker {
 
-// What a test program asks of memory. A program that has counted_memory.cc among its sources counts
-// every operator new and delete of its own and of the libraries it is linked with.
+// Counts the memory that a test program allocates. A program with counted_memory.cc among its
+// sources counts every operator new and delete, including those of its libraries.
 
-/// Times that memory was asked for since the program began.
+/// Number of allocations since the program's start.
 long Allocations();
 
-/// Bytes that are held now, as malloc counts them.
+/// Bytes allocated now, as reported by malloc.
 long LiveBytes();
 
 }  // namespace pleinair::tracker

@@ -1,5 +1,5 @@
-// How long the tracker takes for a picture, beside AprilTag 3 (quad_decimate 2, one thread) on the
-// same picture in the same run: `apriltag_d2` is that library's time in ms, `ratio` ours over it.
+// Measures the tracker's time per image, and AprilTag 3's (quad_decimate 2, one thread) on the same
+// image in the same run. `apriltag_d2` is that library's time in ms, `ratio` ours over it.
 
 extern "C" {
 #include <apriltag/apriltag.h>
@@ -25,7 +25,7 @@ extern "C" {
 namespace pleinair::tracker {
 namespace {
 
-/// Of this thread: both sides of the comparison use one, and the machine may be busy.
+/// Of this thread: both sides of the comparison use one, and other load must not count.
 double CpuSeconds() {
   timespec time{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
@@ -51,7 +51,7 @@ double Hash(int x, int y, int octave) {
   return static_cast<double>(h ^ (h >> 15)) / 4294967296.0;
 }
 
-/// Surroundings with structure at every scale, as gravel and leaves have: noise of 1/f.
+/// Surroundings with structure at every scale, like gravel and leaves: 1/f noise.
 double Texture(int x, int y) {
   double sum = 0.0;
   for (int octave = 0; octave < 6; ++octave) {
@@ -135,7 +135,7 @@ class Peer {
   apriltag_detector_t* detector_ = apriltag_detector_create();
 };
 
-/// Pictures that are shown to a tracker in turn, there and back; each must show `expected` markers.
+/// Images that the tracker processes forwards and backwards; each must show `expected` markers.
 void Run(benchmark::State& state, std::vector<GreyImage> pictures, const CameraModel& camera,
          SgStrategy strategy, bool consecutive, std::size_t expected) {
   TrackerOptions options;
@@ -150,7 +150,7 @@ void Run(benchmark::State& state, std::vector<GreyImage> pictures, const CameraM
   const std::size_t count = pictures.size();
   double ours = 0.0, theirs = 0.0;
   std::size_t frame = 0, found = 0, frames = 0;
-  for (std::size_t i = 0; i < 2 * count; ++i) {  // Buffers grow, the first frames search.
+  for (std::size_t i = 0; i < 2 * count; ++i) {  // Buffers grow and the first frames search.
     CHECK_EQ(tracker.Track(pictures[i < count ? i : 2 * count - 1 - i].view()).has_value(), true);
   }
   for (auto _ : state) {
@@ -234,8 +234,8 @@ double ResidentMebibytes() {
   return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1024.0 * 1024.0);
 }
 
-/// Consecutive frames in which a marker moves there and back, is covered and gone for a while: what
-/// the process holds after the first thousand and after all.
+/// Consecutive frames in which a marker moves forwards and backwards, is covered and disappears for
+/// a while. Reports the process's memory after the first thousand frames and after all.
 void BM_MemoryOverFrames(benchmark::State& state) {
   const CameraModel camera = CameraOf(480);
   std::vector<GreyImage> pictures;
@@ -256,7 +256,7 @@ void BM_MemoryOverFrames(benchmark::State& state) {
   for (auto _ : state) {
     for (int frame = 0; frame < state.range(0); ++frame) {
       if (frame == kFirst) first = ResidentMebibytes();
-      // There and back.
+      // Forwards and backwards.
       const int at = frame % 48;
       const auto observed = (*made)->Track(pictures[at < 24 ? at : 47 - at].view());
       found += observed.has_value() ? static_cast<std::int64_t>(observed->size()) : 0;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kSamples = 12;
 
-/// Light of the print where a ray (undistorted, z = 1) meets it; negative beside it.
+/// Light of the marker at its intersection with a ray (undistorted, z = 1); negative outside it.
 class MarkerUnderRays {
  public:
   explicit MarkerUnderRays(const RenderedMarker& marker)

@@ -1,4 +1,4 @@
-// Three real photographs; provenance and licence in data/nasa-apriltags/README.md.
+// Tests three real photographs; provenance and licence in data/nasa-apriltags/README.md.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 
 struct GoldenTag {
   int id = 0;
-  std::array<Vec2, 4> corners_px;  ///< In our pixel origin; the order is the peer's own.
+  std::array<Vec2, 4> corners_px;  ///< In our pixel origin; the order is the peer library's.
 };
 
 std::vector<GoldenTag> ReadGolden(const std::string& path) {
@@ -35,7 +35,7 @@ std::vector<GoldenTag> ReadGolden(const std::string& path) {
   return tags;
 }
 
-/// Farthest corner of the golden tag from its nearest corner of the observation.
+/// Maximum distance of a reference corner from its nearest observed corner.
 double Distance(const GoldenTag& tag, const MarkerObservation& observation) {
   double farthest = 0.0;
   for (const Vec2 golden : tag.corners_px) {
@@ -57,7 +57,7 @@ TEST_P(Photograph, ShowsEveryTagOfTheGoldenFileWithinOnePixel) {
   ASSERT_EQ(golden.size(), count);
   const cv::Mat image = cv::imread(stem + ".jpg", cv::IMREAD_GRAYSCALE);
   ASSERT_FALSE(image.empty());
-  // Nobody calibrated this camera: about the field of view of a normal lens.
+  // This camera is not calibrated: assumes about the field of view of a normal lens.
   const CameraModel camera{.width = image.cols,
                            .height = image.rows,
                            .fx = 800,

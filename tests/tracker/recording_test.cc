@@ -1,4 +1,4 @@
-// The bundled path-traced recordings against their true camera poses.
+// Tests the bundled path-traced recordings against their true camera poses.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -27,7 +27,7 @@ struct Bundled {
   const char* family;
   std::size_t frames;
   bool consecutive;
-  double translation_median_percent, translation_p95_percent, mean_nees;  ///< At most.
+  double translation_median_percent, translation_p95_percent, mean_nees;  ///< Upper limits.
 };
 
 /// "t_s tx ty tz qx qy qz qw", x_marker = R(q) x_camera + t.
@@ -48,7 +48,7 @@ std::vector<Transform<Marker, Camera>> ReadTruth(const std::string& folder) {
   return truth;
 }
 
-/// Between the two nearest values, linearly.
+/// With linear interpolation between the two nearest values.
 double Percentile(std::vector<double> values, double share) {
   std::sort(values.begin(), values.end());
   const double place = share * static_cast<double>(values.size() - 1);

@@ -70,7 +70,7 @@ TEST(Tracker, GivesThePosesOfTwoMarkersInOrderOfTheirNumbers) {
 }
 
 TEST(Tracker, MeasuresATagOfWhichThePicturesEdgeCutsACornerOff) {
-  // The tag goes down out of the image; its lowest corner is up to a module below it.
+  // The tag leaves the image downwards; its lowest corner is up to a module below the image.
   const CameraModel camera = Camera320();
   int cut_off = 0, found = 0;
   for (int step = 0; step < 160; ++step) {

@@ -1,4 +1,4 @@
-// Runs beside GigE Vision cameras in software, in a network namespace that has only loopback.
+// Runs with simulated GigE Vision cameras, in a network namespace with loopback only.
 #include <gmock/gmock.h>
 #include <signal.h>
 
@@ -128,7 +128,7 @@ TEST(GigE, FiftyStartsAndStopsLeaveNothingBehind) {
   }
 }
 
-// Last: the camera does not come back.
+// Last test: the camera does not come back.
 TEST(GigE, ZzzACameraThatIsSwitchedOffIsToldWithinASecond) {
   const auto camera = LiveCamera::Open(GreyOptions(kLossy));
   ASSERT_TRUE((*camera)->NextWithin(kLong));

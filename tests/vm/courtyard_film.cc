@@ -29,7 +29,7 @@ bool Same(const GreyImage& a, const GreyImage& b) {
   return a.size() == b.size() && std::equal(a.data(), a.data() + a.size(), b.data());
 }
 
-/// The camera's place in the marker's frame, from lines of "seconds x y z qx qy qz qw".
+/// Camera positions in the marker's frame, from lines of "seconds x y z qx qy qz qw".
 std::vector<Vec3> TruePlaces() {
   std::ifstream file(std::string(kRecording) + "/truth.tum");
   std::vector<Vec3> places;
@@ -73,7 +73,7 @@ void ExpectRightPosesAndTheSameInReplay(devices::LiveCamera* camera, const Court
   const std::string pack = testing::TempDir() + "live.pack";
   std::remove(pack.c_str());
   tracker::TrackerOptions options;
-  options.families = {"tag36h11"};  // Quick to find, even in a machine made of software.
+  options.families = {"tag36h11"};  // Fast to detect, even in a software-emulated machine.
   options.marker_size_m = film.marker_size_m;
   const auto tracker = tracker::Tracker::Create(film.camera, options);
   ASSERT_TRUE(tracker);

@@ -10,24 +10,24 @@
 
 namespace pleinair::vm {
 
-/// The first pictures of the bundled AprilTag recording, for cameras in software to play, and where
-/// its camera truly was.
+/// The first images of the bundled AprilTag recording, for simulated cameras, and the true camera
+/// positions.
 struct CourtyardFilm {
   CameraModel camera;
   double marker_size_m = 0.0;
   std::vector<GreyImage> pictures;
-  std::vector<Vec3> places;  ///< Of the camera in the marker's frame, metres; of all pictures.
+  std::vector<Vec3> places;  ///< Camera positions in the marker's frame, metres.
 };
 
-/// Without pictures, and with a test failed, where it cannot be read.
+/// Returns no images, and fails the test, if the recording cannot be read.
 CourtyardFilm OpenCourtyardFilm();
 
-/// Which of these pictures this one is; their count where it is none of them.
+/// Index of this image among `pictures`; their count if it is none of them.
 std::size_t NumberOf(const GreyImage& grey, const std::vector<GreyImage>& pictures);
 
-/// Tracks and records four frames of a camera that plays the film; expects every one to be one of
-/// `sent` (the film's pictures as the camera gives them), its pose to be right, and the recording
-/// to replay to the same poses, stamps and exposures, bit by bit.
+/// Tracks and records four frames of a camera that plays the film. Expects each to be one of `sent`
+/// (the film's images as the camera delivers them) with a correct pose. The recording must replay
+/// to identical poses, stamps and exposures.
 void ExpectRightPosesAndTheSameInReplay(devices::LiveCamera* camera, const CourtyardFilm& film,
                                         const std::vector<GreyImage>& sent);
 

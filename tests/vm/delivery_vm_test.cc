@@ -28,9 +28,9 @@ TEST(Behaviour1, ASleepingConsumerNeitherStarvesTheDriverNorGetsOldFrames) {
   std::cout << "lost in 1 s of sleep: " << frame->lost_before << " (number "
             << frame->loss.by_number << ", not taken " << frame->loss.not_taken << ", time "
             << frame->loss.by_time << "), age " << (before - frame->timestamp_ns) / 1000 << " us\n";
-  // A driver with four buffers alone would give a frame that is a second old.
+  // With only four driver buffers the frame would be one second old.
   EXPECT_LT(before - frame->timestamp_ns, 2 * 33'400'000);
-  // 29 at 30 Hz; the VM of a busy machine makes fewer.
+  // 29 at 30 Hz; fewer in the VM of a busy machine.
   EXPECT_GE(frame->lost_before, 20);
   EXPECT_LE(frame->lost_before, 31);
   EXPECT_LE(frame->loss.by_number, 3) << "the driver ran out of buffers";
@@ -60,11 +60,11 @@ TEST(Behaviour2, DamagedFramesThatTheDriverHandsOnAreCountedAndNotDelivered) {
 }
 
 TEST(Behaviour2, FramesThatTheCameraNeverSentShowAsADoubledTimeStep) {
-  // Slowly, so that what a busy machine's VM stutters is little of a period.
+  // At a low rate, so that delays of a busy machine's VM are a small part of a period.
   const UvcSimulator simulator({"--drop-every", "5", "--fps", "8"});
   const auto camera = Open(Options(kUsb, PixelFormat::kYuyv, 320, 240));
   const FrameLoss loss = Collect(camera.get(), 40);
-  // Ten are missing; the first few before the period is known.
+  // Ten are missing; the first few precede the estimate of the period.
   EXPECT_GE(loss.by_time, 5);
   EXPECT_LE(loss.by_time, 20);
   EXPECT_LT(loss.by_number, loss.by_time);
@@ -92,7 +92,7 @@ TEST(Behaviour5, AShortJpegCostsOneFrameAndIsCounted) {
     const auto frame = camera->NextWithin(kLong);
     ASSERT_TRUE(frame);
     loss += frame->loss;
-    // The lower half of a mended image is of one grey; the ramp is not.
+    // The lower half of a repaired image is uniformly grey; the ramp is not.
     EXPECT_NE(frame->grey(3, 239), frame->grey(40, 239));
   }
   EXPECT_GE(loss.damaged, 5);

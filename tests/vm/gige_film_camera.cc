@@ -14,11 +14,11 @@ struct GigeFilmCamera::Player {
   std::size_t next = 0;
   ArvGvFakeCamera* camera = nullptr;
 
-  /// What the camera's thread calls for every image it sends.
+  /// Called by the camera's thread for every image that it sends.
   static void Fill(ArvBuffer* buffer, void* data, guint32, guint32, ArvPixelFormat) {
     auto* player = static_cast<Player*>(data);
     const GreyImage& image = player->pictures[player->next++ % player->pictures.size()];
-    // Of the buffer nothing is said yet, not even its size with its data.
+    // The buffer has no properties yet, not even the size of its data.
     const std::size_t payload =
         arv_fake_camera_get_payload(arv_gv_fake_camera_get_fake_camera(player->camera));
     auto* bytes =

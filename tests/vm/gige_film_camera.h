@@ -7,12 +7,12 @@
 
 namespace pleinair::vm {
 
-/// A GigE Vision camera in this process that plays grey pictures of one size over and over, in
-/// place of the pattern of Aravis' test camera (ArvGvFakeCamera).
+/// A GigE Vision camera in this process that plays grey images of one size in a loop. It replaces
+/// the pattern of Aravis' test camera (ArvGvFakeCamera).
 class GigeFilmCamera {
  public:
-  /// `address`: of an interface that the network namespace has; one camera an address. Null where
-  /// Aravis cannot open it.
+  /// `address`: of an interface in the network namespace, one camera per address. Null if Aravis
+  /// cannot open it.
   static std::unique_ptr<GigeFilmCamera> Start(const char* address, const char* serial,
                                                std::vector<GreyImage> pictures);
   ~GigeFilmCamera();

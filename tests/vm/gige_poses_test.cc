@@ -1,4 +1,4 @@
-// Beside GigE Vision cameras in software, one of which plays footage whose poses are known.
+// Runs with simulated GigE Vision cameras, one of which plays images with known poses.
 #include <gtest/gtest.h>
 
 #include "tests/vm/camera_helpers.h"
@@ -10,7 +10,7 @@ namespace {
 
 TEST(GigE, WhatIsRecordedLiveReplaysToIdenticalPosesAndTheseAreRight) {
   const CourtyardFilm film = OpenCourtyardFilm();
-  // The address is one that aravis-camera-test adds.
+  // aravis-camera-test adds this address.
   const auto playing = GigeFilmCamera::Start("127.0.0.3", "FILM", film.pictures);
   ASSERT_NE(playing, nullptr);
   const auto camera = Open(Options("aravis:Aravis-Fake-FILM", devices::PixelFormat::kGrey8,

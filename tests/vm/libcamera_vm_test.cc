@@ -101,7 +101,7 @@ TEST(Libcamera, AnUnpluggedCameraIsToldWithinASecondAndComesBackByItself) {
   EXPECT_EQ(camera->counts().connections, 2);
 }
 
-/// Lets udev tell of nodes of one kind a second later, of one after the other; of none at the end.
+/// Delays udev's report of nodes of one kind by a second; of no kind after destruction.
 class SlowNodes {
  public:
   SlowNodes() {
@@ -138,7 +138,7 @@ std::size_t MediaNodes() {
   return count;
 }
 
-/// Waits until there are so many and udev has told of them.
+/// Waits until there are `count` and udev has reported them.
 void WaitForMediaNodes(std::size_t count) {
   for (const auto end = std::chrono::steady_clock::now() + kLong;
        MediaNodes() != count && std::chrono::steady_clock::now() < end;) {

@@ -88,7 +88,7 @@ TEST(Behaviour11, FiftyStartsAndStopsLeaveNothingBehind) {
     std::thread stopper([&] { camera->Stop(); });
     stopper.join();
   }
-  // Were a file left open with buffers, the next one would be told that the camera is busy.
+  // If a file with buffers were still open, the next open would report a busy camera.
   LiveCameraOptions options = Options(node, PixelFormat::kYuyv, 320, 180);
   options.wait_for_camera = false;
   EXPECT_TRUE(LiveCamera::Open(options));

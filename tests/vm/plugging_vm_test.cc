@@ -38,7 +38,7 @@ TEST(Behaviour8, ASilentCameraIsToldAndItsRecoveryToo) {
   EXPECT_EQ(camera->counts().stalls, 1);
 }
 
-// Last: vivid's node does not come back.
+// Last test: vivid's node does not come back.
 TEST(Behaviour6, ZzzVividsDisconnectIsTold) {
   const std::string node = VividNode();
   const auto camera = Open(Options(node, PixelFormat::kYuyv, 320, 180));

@@ -26,7 +26,7 @@ namespace {
 
 using devices::PixelFormat;
 
-/// What a grey image looks like after it went through the camera's Y of limited range.
+/// A grey image after conversion from the camera's limited-range Y.
 GreyImage ThroughYuyv(const GreyImage& grey) {
   devices::RawImage raw;
   raw.format = PixelFormat::kYuyv;
@@ -44,7 +44,7 @@ GreyImage ThroughYuyv(const GreyImage& grey) {
 
 constexpr const char* kSequence = "/tmp/sequence.grey";
 
-/// Writes what the simulator plays; gives what comes of each image.
+/// Writes the simulator's images and returns the expected received images.
 std::vector<GreyImage> WriteSequence(const CourtyardFilm& film) {
   std::vector<GreyImage> sent;
   std::ofstream bytes(kSequence, std::ios::binary);
@@ -56,7 +56,7 @@ std::vector<GreyImage> WriteSequence(const CourtyardFilm& film) {
   return sent;
 }
 
-/// By the way to the camera.
+/// Parameter: backend of the camera.
 class Behaviour12 : public testing::TestWithParam<const char*> {};
 
 TEST_P(Behaviour12, WhatIsRecordedLiveReplaysToIdenticalPosesAndTheseAreRight) {
@@ -73,7 +73,7 @@ INSTANTIATE_TEST_SUITE_P(V4l2, Behaviour12, testing::Values(kUsb));
 INSTANTIATE_TEST_SUITE_P(Libcamera, Behaviour12, testing::Values("libcamera:0"));
 #endif
 
-/// `pleinair` as a process of its own, what it prints in a file.
+/// `pleinair` as a separate process, with its output in a file.
 class Command {
  public:
   Command(const char* printed, std::vector<std::string> arguments) {

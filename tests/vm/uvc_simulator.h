@@ -5,7 +5,7 @@
 
 namespace pleinair::vm {
 
-/// The USB camera in software, as a process of its own; ends with this object, which unplugs it.
+/// The simulated USB camera as a separate process. The destructor unplugs it.
 class UvcSimulator {
  public:
   explicit UvcSimulator(const std::vector<std::string>& arguments = {});
@@ -13,10 +13,10 @@ class UvcSimulator {
   UvcSimulator(const UvcSimulator&) = delete;
   UvcSimulator& operator=(const UvcSimulator&) = delete;
 
-  /// One line to it: "unplug", "plug", "stall", "run", "err", "short".
+  /// Sends one command: "unplug", "plug", "stall", "run", "err", "short".
   void Command(const std::string& line);
 
-  /// All that it has printed so far.
+  /// Its output so far.
   std::string Output();
 
  private:

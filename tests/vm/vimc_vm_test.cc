@@ -35,7 +35,7 @@ TEST(Vimc, IsListedAndSendsPicturesInOrder) {
     EXPECT_EQ(frame->rgb.width(), negotiated.size.width);
     EXPECT_GT(frame->timestamp_ns, last_ns);
     EXPECT_GT(frame->index, last_index);
-    // The sensor's test image, not one grey.
+    // The sensor's test image, not uniform grey.
     EXPECT_NE(frame->grey(3, 120), frame->grey(300, 120));
     last_ns = frame->timestamp_ns;
     last_index = frame->index;

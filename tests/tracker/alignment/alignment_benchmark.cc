@@ -1,4 +1,5 @@
-// How long fits of a print to an image take, from a guess that is off by a share of its side.
+// Measures how long a fit of a marker to an image takes, from a guess with a relative error of its
+// side.
 
 #include <benchmark/benchmark.h>
 
@@ -53,7 +54,7 @@ struct Scene {
   }
 };
 
-/// Edge of the print in pixels, and steps.
+/// Edge of the marker in pixels, and number of steps.
 void FitFinely(benchmark::State& state) {
   const double side = static_cast<double>(state.range(0));
   const Scene scene(side, true, 0.004);
@@ -72,7 +73,7 @@ void FitFinely(benchmark::State& state) {
 }
 BENCHMARK(FitFinely)->Args({120, 5})->Args({42, 5})->Args({16, 5})->Unit(benchmark::kMicrosecond);
 
-/// The same, stopping as soon as it stands still.
+/// The same, with a stop at convergence.
 void FitFinelyUntilDone(benchmark::State& state) {
   const double side = static_cast<double>(state.range(0));
   const Scene scene(side, true, 0.004);

@@ -1,4 +1,4 @@
-// Whether fits and what is made of them state how wrong they are.
+// Tests that fits and derived values report correct covariances.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -47,8 +47,8 @@ TEST(CovarianceOfCorners, IsThatOfWhereAMotionTakesThem) {
   }
 }
 
-/// Normalised estimation error squared over 8 degrees of freedom, mean of so many pictures: 1 if
-/// the covariance were exact.
+/// Normalised estimation error squared per degree of freedom (8), mean over this number of images.
+/// It is 1 for an exact covariance.
 double MeanNees(double side_px, const RenderingOptions& rendering, int pictures,
                 void (*spoil)(AlignmentScene*, std::uint32_t seed)) {
   AlignmentView view;
@@ -59,7 +59,7 @@ double MeanNees(double side_px, const RenderingOptions& rendering, int pictures,
   for (int k = 0; k < pictures; ++k) {
     RenderingOptions options = rendering;
     options.seed = static_cast<std::uint32_t>(k + 1);
-    // Another place in the pixels each time.
+    // A different position relative to the pixel grid in each image.
     view.centre_px = {158.0 + 0.13 * k, 121.0 - 0.29 * k};
     AlignmentScene scene = MakeScene(view, options);
     if (spoil != nullptr) spoil(&scene, options.seed);
@@ -85,8 +85,8 @@ double MeanNees(double side_px, const RenderingOptions& rendering, int pictures,
 }
 
 TEST(BlockFit, StatesTheCovarianceOfItsCorners) {
-  // Noise that the residuals do not know of (the raster's approximation, rounding to codes) makes
-  // the mean larger, what is kept in reserve smaller.
+  // Noise that the residuals do not contain (the raster's approximation, rounding to pixel values)
+  // increases the mean. The covariance floor reduces it.
   for (const double side : {42.0, 120.0}) {
     const double nees = MeanNees(side, {.blur_px = 0.6, .noise_codes = 4.0, .light = {}}, 24, {});
     EXPECT_GT(nees, 0.4) << side;

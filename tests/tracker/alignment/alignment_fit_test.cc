@@ -29,7 +29,7 @@ struct Errors {
   int failures = 0;
 };
 
-/// Errors of the corners over some views.
+/// Corner errors over several views.
 Errors Measure(double side_px, double off_px, const RenderingOptions& rendering,
                void (*cover)(AlignmentScene*), bool fit_light = false) {
   std::mt19937 random(11);
@@ -37,7 +37,7 @@ Errors Measure(double side_px, double off_px, const RenderingOptions& rendering,
   int corners = 0;
   ObservedPatch observed;
   BlockFit fit;
-  const int views = rendering.light ? 5 : 10;  // Light by the sample takes its time.
+  const int views = rendering.light ? 5 : 10;  // Per-sample light is slow to render.
   for (int k = 0; k < views; ++k) {
     RenderingOptions options = rendering;
     options.seed = static_cast<std::uint32_t>(k + 1);
@@ -102,7 +102,7 @@ TEST(BlockFit, MeasuresMarkersUnderAGradientAsInEvenLight) {
   }
 }
 
-// The quiet zone of a print of 16 px is 1.6 px wide, the lens blurs what is beside it into it.
+// The quiet zone of a marker of 16 px is 1.6 px wide. The lens blurs its surroundings into it.
 TEST(BlockFit, IsNotDrawnByWhatLiesBesideASmallPrint) {
   const auto rms = [](double background, bool fit_light) {
     const Errors errors = Measure(16, 0.2, {.background = background, .blur_px = 0.6, .light = {}},
@@ -120,7 +120,7 @@ TEST(BlockFit, FindsMarkersCrossedByTheEdgeOfAShadow) {
     const Errors errors =
         Measure(side, 0.5, {.blur_px = 0.6, .noise_codes = 2.0, .light = shadow}, nullptr);
     EXPECT_EQ(errors.failures, 0);
-    EXPECT_LT(Norm(errors.mean), 0.1) << side;  // Of five views.
+    EXPECT_LT(Norm(errors.mean), 0.1) << side;  // Over five views.
     EXPECT_LT(errors.rms, 0.2) << side;
   }
 }
@@ -138,7 +138,7 @@ TEST(BlockFit, FindsMarkersOfWhichHalfIsCovered) {
     const Errors errors =
         Measure(side, 0.4, {.blur_px = 0.6, .noise_codes = 2.0, .light = {}}, cover);
     EXPECT_EQ(errors.failures, 0);
-    // The covered corners hang on the others: four times as far out of what is observed.
+    // The covered corners depend on the visible part: they are four times as far from it.
     EXPECT_LT(errors.rms, 0.4) << side;
     EXPECT_LT(Norm(errors.mean), 0.1) << side;
   }
@@ -213,7 +213,7 @@ TEST(BlockFit, AsksForNoMemoryAfterTheFirstFit) {
   ObservedPatch observed;
   BlockFit fit;
   BlockFitState state = scene.Guess(0.5);
-  // A blur as wide as any that comes needs the longest taps.
+  // The maximum blur needs the longest filter taps.
   state.blur_px = 2.5;
   ASSERT_TRUE(FitWhole(scene, &observed, &fit, &state));
   const long before = Allocations();
@@ -258,7 +258,7 @@ TEST(BlockFit, SurvivesHomographiesAndRaysThatAreNone) {
     BlockFitState state{none, 0.7};
     fit.Run(scene.marker_pattern(), MarkerPart::kWhole, observed, 8, options, &state);
   }
-  // A third of the rays is not there; the rest must do.
+  // A third of the rays is missing; the rest must suffice.
   for (std::size_t n = 0; n < observed.rays.x.size() / 3; ++n) {
     observed.rays.x[n] = observed.rays.y[n] = std::numeric_limits<float>::quiet_NaN();
   }

@@ -16,7 +16,7 @@
 namespace pleinair::tracker {
 namespace {
 
-/// The print's white at a point, its outermost modules going on.
+/// The marker's white at a point; the outermost modules are extended.
 double WhiteAt(const MarkerPattern& marker_pattern, Vec2 modules) {
   const auto index = [&](double at) {
     return std::clamp(static_cast<int>(std::floor(at)), 0, marker_pattern.modules - 1);
@@ -24,13 +24,13 @@ double WhiteAt(const MarkerPattern& marker_pattern, Vec2 modules) {
   return marker_pattern.white[index(modules.y) * marker_pattern.modules + index(modules.x)];
 }
 
-/// A pixel's square convolved with the blur's Gaussian, along one axis.
+/// A pixel's box convolved with the blur's Gaussian, along one axis.
 double PixelAndBlur(double t, double sigma) {
   const double scale = 1.0 / (sigma * std::numbers::sqrt2);
   return 0.5 * (std::erfc((t - 0.5) * scale) - std::erfc((t + 0.5) * scale));
 }
 
-/// The share of white in a pixel's light by brute force: 20 samples along a pixel.
+/// Share of white in a pixel's light by brute force: 20 samples along a pixel.
 double BruteForce(const CameraModel& camera, const MarkerPattern& marker_pattern,
                   const Mat3& modules, Vec2 pixel, double blur_px) {
   constexpr int kPerPixel = 20;
@@ -56,8 +56,8 @@ TEST(MarkerRaster, AgreesWithBruteForceSampling) {
     bool bent;
     double most;
   };
-  // The samples' boxes are exact for edges along the print's axes only: corners and tilted prints,
-  // and one sample a pixel where the blur is wide, cost the rest.
+  // The samples' boxes are exact only for edges along the marker's axes. The rest of the error
+  // comes from corners, tilted markers and one sample per pixel under wide blur.
   for (const Case& c : {Case{120, 0.0, 0.6, false, 0.01}, Case{120, 1.0, 0.4, false, 0.02},
                         Case{120, 0.8, 0.7, true, 0.01}, Case{42, 0.9, 0.5, false, 0.012},
                         Case{52, 0.2, 1.3, false, 0.012}, Case{16, 0.7, 0.6, false, 0.012},
@@ -110,7 +110,7 @@ TEST(MarkerRaster, ItsSlopesAreThoseOfItsPicture) {
                     0.6, &map, &image);
       return image;
     };
-    constexpr double kStep = 0.25;  // Half as far as samples are apart.
+    constexpr double kStep = 0.25;  // Half the sample spacing.
     const PredictedImage at = render(0, 0), right = render(kStep, 0), left = render(-kStep, 0);
     const PredictedImage below = render(0, kStep), above = render(0, -kStep);
     double worst = 0.0, steepest = 0.0, squares = 0.0;

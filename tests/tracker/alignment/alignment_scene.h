@@ -8,26 +8,26 @@
 
 namespace pleinair::tracker {
 
-/// A camera of 320×240 pixels, its lens bent or not.
+/// A camera of 320×240 pixels, with or without lens distortion.
 CameraModel SceneCamera(bool bent);
 
-/// Homography to modules of a print from where the corners of its square are.
+/// Homography to the marker's modules from the corners of its square.
 Mat3 ModulesFromCorners(const MarkerPattern& marker_pattern, const std::array<Vec2, 4>& corners);
-/// … and where they are.
+/// The corners from that homography.
 std::array<Vec2, 4> CornersOf(const MarkerPattern& marker_pattern,
                               const Mat3& modules_from_undistorted);
 
-/// A print near the middle of a rendered image, and the window that holds it.
+/// A marker near the centre of a rendered image, and the window around it.
 struct AlignmentScene {
   CameraModel camera;
   std::unique_ptr<LensGrid> lens;
   RenderedMarker marker;
   GreyImage image;
-  std::array<Vec2, 4> truth;  ///< Corners, in pixels.
+  std::array<Vec2, 4> truth;  ///< True corners in pixels.
   PixelWindow window;
 
   const MarkerPattern& marker_pattern() const { return *marker.pattern; }
-  /// A guess with the corners off by `off_px` each along directions of their own.
+  /// A guess with every corner displaced by `off_px`, each in another direction.
   BlockFitState Guess(double off_px) const;
   std::array<Vec2, 4> Corners(const BlockFitState& state) const;
 };

@@ -1,4 +1,5 @@
-// Sums over tiles on every instruction set against their scalar reference, and against plain sums.
+// Compares sums over tiles on every instruction set with their scalar reference and with plain
+// sums.
 
 #include <gtest/gtest.h>
 
@@ -82,7 +83,7 @@ TEST_P(TilesOnEveryTarget, AddUpAsTheScalarReferenceDoes) {
           EXPECT_NEAR(simd.levels[k].rpi, scalar.levels[k].rpi, 1e-5 * scale);
           EXPECT_NEAR(simd.blocks[k].rr, scalar.blocks[k].rr, 1e-5 * scale);
           for (int a = 0; a < kFitParameters; ++a) {
-            // Derivatives by half edges are some tens of those by pixels.
+            // Derivatives per half edge are tens of times those per pixel.
             EXPECT_NEAR(simd.blocks[k].j[a], scalar.blocks[k].j[a], 1e-3 * scale);
             EXPECT_NEAR(simd.blocks[k].pj[a], scalar.blocks[k].pj[a], 1e-3 * scale);
           }
@@ -151,8 +152,8 @@ TEST(BlockSums, AreThoseOfThePixelsOneByOne) {
   for (const BlockMotions& block : results.blocks) sum_weight += block.w;
   EXPECT_EQ(sum_pixels, pixels);
   EXPECT_NEAR(sum_weight, weight, 1e-4 * weight);
-  // Tiles of 4 pixels take the place on the print as one: 3 % of the root of the diagonal's
-  // product.
+  // Tiles of 4 pixels assume one position on the marker. The tolerance is 3 % of the root of the
+  // diagonal's product.
   for (int a = 0, at = 0; a < kN; ++a) {
     for (int b = 0; b <= a; ++b, ++at) {
       const double scale = std::sqrt(jj[a * kN + a] * jj[b * kN + b]);

@@ -16,7 +16,7 @@ std::shared_ptr<const MarkerPattern> BoardPattern(const CalibrationBoard& board,
   const bool charuco = board.kind == BoardKind::kCharuco;
   const int columns = board.columns + (charuco ? 0 : 1), rows = board.rows + (charuco ? 0 : 1);
   const int marker = charuco ? ArucoMarkerPattern(board.dictionary, 0)->modules : 0;
-  // Modules come twice, so that every board has its middle between two of them.
+  // Modules are doubled, so that every board's centre lies between two of them.
   const int square = 2 * (marker + 2);
   auto print = std::make_shared<MarkerPattern>();
   print->edge_modules = square;
@@ -71,7 +71,7 @@ std::vector<Transform<Camera, Marker>> BoardPoses(const CameraModel& camera, dou
   struct Place {
     double x, y, size, tilt, axis_deg, roll_deg;
   };
-  // Shares of the picture, of the tilt; near views in the middle, farther ones at the edges.
+  // Fractions of the image and of the tilt; near views in the centre, farther ones at the edges.
   constexpr Place kPlaces[] = {
       {.50, .50, .80, 0.2, 0, 2},    {.50, .50, .70, 1.0, 90, -5},  {.50, .50, .70, 1.0, 0, 4},
       {.28, .30, .50, 0.8, 45, 10},  {.72, .30, .50, 0.8, 135, -9}, {.28, .70, .50, 0.8, -45, 6},

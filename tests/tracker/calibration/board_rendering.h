@@ -8,18 +8,18 @@
 
 namespace pleinair::tracker {
 
-/// A chessboard or ChArUco board as a print; its `edge_modules` are one square, and its middle is
-/// the board's. `legacy`: laid out as before OpenCV 4.6.
+/// A chessboard or ChArUco board as a marker pattern. Its `edge_modules` are one square; its centre
+/// is the board's. `legacy`: the layout of OpenCV versions before 4.6.
 std::shared_ptr<const MarkerPattern> BoardPattern(const CalibrationBoard& board,
                                                   bool legacy = false);
 
-/// A picture of the board.
+/// An image of the board.
 GreyImage RenderBoard(const CameraModel& camera, const CalibrationBoard& board,
                       const Transform<Camera, Marker>& camera_from_board,
                       const RenderingOptions& options, bool legacy = false);
 
-/// The board in twelve places all over the picture, near and far, tilted by up to `tilt_deg` in all
-/// directions; its `width_m` then is about a third to two thirds of the picture.
+/// Twelve poses of the board all over the image, near and far, tilted by up to `tilt_deg` in all
+/// directions. Its `width_m` covers about a third to two thirds of the image.
 std::vector<Transform<Camera, Marker>> BoardPoses(const CameraModel& camera, double width_m,
                                                   double tilt_deg);
 

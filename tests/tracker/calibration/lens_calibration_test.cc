@@ -35,8 +35,8 @@ CameraModel TrueCamera() {
 
 CalibrationBoard Charuco() { return {BoardKind::kCharuco, 8, 6, 0.03, 0.0, 0, "5x5_50"}; }
 
-/// How far apart two lenses see the same directions, px: RMS over the image. A turn of the camera
-/// goes unseen in pictures, so the best one is taken out.
+/// RMS distance in pixels between two lenses' projections of the same directions. Images do not
+/// determine the camera's rotation, so the best rotation is removed first.
 double MapApart_px(const CameraModel& a, const CameraModel& b) {
   std::vector<Vec3> rays;
   std::vector<Vec2> pixels;
@@ -74,12 +74,12 @@ double MapApart_px(const CameraModel& a, const CameraModel& b) {
   return std::sqrt(left.dot(left) / static_cast<double>(rays.size()));
 }
 
-/// Views of a board found in rendered pictures, as `pleinair calibrate` finds them.
+/// Board views detected in rendered images, as in `pleinair calibrate`.
 std::vector<PlaneView> RenderedViews(const CameraModel& camera, const CalibrationBoard& board,
                                      const std::vector<Transform<Camera, Marker>>& poses,
                                      bool legacy = false) {
   CalibrationBoard unknown = board;
-  unknown.dictionary.clear();  // Found by looking.
+  unknown.dictionary.clear();  // The dictionary is to be detected.
   auto finder = BoardFinder::Create(unknown);
   EXPECT_TRUE(finder);
   std::vector<PlaneView> views;
@@ -103,7 +103,7 @@ std::vector<PlaneView> RenderedViews(const CameraModel& camera, const Calibratio
   return views;
 }
 
-/// Views as corners alone, with noise.
+/// Views as noisy corners, without images.
 std::vector<PlaneView> DrawnViews(const CameraModel& camera,
                                   const std::vector<Transform<Camera, Marker>>& poses,
                                   double noise_px) {
@@ -144,7 +144,7 @@ void ExpectTheTrueLens(const std::vector<PlaneView>& views, std::size_t min_view
   EXPECT_LT(found->rms_px, 0.15);
 }
 
-/// Rendering costs more than everything else here.
+/// Rendering dominates the run time.
 std::vector<Transform<Camera, Marker>> EverySecond(
     const std::vector<Transform<Camera, Marker>>& poses) {
   std::vector<Transform<Camera, Marker>> half;
@@ -169,7 +169,8 @@ TEST(LensCalibration, FindsTheLensFromRenderedBoardsOfOurMarkers) {
 }
 
 TEST(LensCalibration, KnowsBoardsFromBeforeOpenCv46ByLooking) {
-  // Six rows, an even number: the two layouts differ, and both are told apart from the pictures.
+  // The two layouts differ for an even number of rows such as six. The images must determine the
+  // layout.
   const auto poses = BoardPoses(TrueCamera(), 0.24, 40.0);
   const auto views = RenderedViews(TrueCamera(), Charuco(), {poses[0], poses[1]}, true);
   ASSERT_EQ(views.size(), 2U);
@@ -179,7 +180,7 @@ TEST(LensCalibration, KnowsBoardsFromBeforeOpenCv46ByLooking) {
   }
 }
 
-/// What a calibration from these poses is refused for.
+/// The error of a calibration from these poses.
 std::string Refusal(const std::vector<Transform<Camera, Marker>>& poses) {
   const CameraModel camera = TrueCamera();
   const auto found = CalibrateLens(DrawnViews(camera, poses, 0.05), camera.width, camera.height);
@@ -200,7 +201,7 @@ TEST(LensCalibration, IsSureOfGoodViews) {
 TEST(LensCalibration, RefusesViewsFromStraightAhead) {
   std::vector<Transform<Camera, Marker>> poses;
   for (int i = 0; i < 12; ++i) {
-    // Facing the image's plane, not the camera, wherever it stands.
+    // Parallel to the image plane at every position.
     Transform<Camera, Marker> pose = Seen(0.5, 0.5, 300.0, 0.0, 0.0);
     pose.rotation = {{1, 0, 0, 0, -1, 0, 0, 0, -1}};
     pose.translation_m = {0.12 * (i % 4 - 1.5), 0.09 * (i / 4 - 1.0), 0.5 + 0.05 * (i % 3)};
@@ -231,7 +232,7 @@ TEST(LensCalibration, RefusesPointsThatAllLieAtOneDistance) {
 }
 
 TEST(LensCalibration, JudgesByTheCovarianceWhetherDistancesAndTiltsDetermineTheFocalLength) {
-  // Twelve places, at 44, 55 and 66 cm or all at 55 cm.
+  // Twelve positions, at 44, 55 and 66 cm or all at 55 cm.
   const auto places = [](double tilt_deg, bool three_distances, bool one_axis) {
     std::vector<Transform<Camera, Marker>> poses;
     for (int i = 0; i < 12; ++i) {
@@ -245,15 +246,16 @@ TEST(LensCalibration, JudgesByTheCovarianceWhetherDistancesAndTiltsDetermineTheF
     return poses;
   };
   for (const bool three_distances : {false, true}) {
-    // Distances alone do not help: a longer lens farther off shows planes that face it the same.
+    // Distances alone do not help: for fronto-parallel planes a longer lens farther away gives the
+    // same images.
     for (const double tilt_deg : {0.0, 5.0}) {
       EXPECT_THAT(Refusal(places(tilt_deg, three_distances, false)),
                   HasSubstr("looks straight at the board"))
           << tilt_deg;
     }
-    // Tilts do, whatever the distances.
+    // Tilts suffice, at any distance.
     EXPECT_EQ(Refusal(places(15.0, three_distances, false)), "");
-    // Tilted about one axis only, one of the two focal lengths has nothing to go by.
+    // With tilts about one axis only, one of the two focal lengths is undetermined.
     EXPECT_THAT(Refusal(places(20.0, three_distances, true)),
                 HasSubstr("tilt the board about both axes"));
   }
@@ -278,7 +280,7 @@ TEST(LensCalibration, RefusesTooFewViews) {
 TEST(LensCalibration, RefusesBoardsThatAreNotAsDescribed) {
   const CameraModel camera = TrueCamera();
   auto views = DrawnViews(camera, BoardPoses(camera, 0.3, 40.0), 0.05);
-  // Squares that are no squares: the board was scaled in one direction and bent.
+  // Distorted squares: the board was scaled in one direction and bent.
   for (PlaneView& view : views) {
     for (Vec2& at : view.on_board_m) at.x *= 1.0 + 2.0 * at.x;
   }
@@ -290,13 +292,13 @@ TEST(LensCalibration, RefusesBoardsThatAreNotAsDescribed) {
 TEST(LensCalibration, LeavesOutWhatContradictsTheRest) {
   const CameraModel camera = TrueCamera();
   auto views = DrawnViews(camera, BoardPoses(camera, 0.3, 40.0), 0.1);
-  views[3].observed_px[7].x += 9.0;  // A corner gone astray,
+  views[3].observed_px[7].x += 9.0;  // One outlier corner,
   for (Vec2& observed : views[5].observed_px)
     observed = observed * 0.8 + Vec2{40.0 + 0.0004 * observed.x * observed.y, 20.0};
   const auto found = CalibrateLens(views, camera.width, camera.height);
   ASSERT_TRUE(found) << found.error().Message();
   EXPECT_NEAR(found->fit.camera.fx / camera.fx, 1.0, 0.002);
-  ASSERT_EQ(found->dropped.size(), 1U);  // … and a view that no pose explains.
+  ASSERT_EQ(found->dropped.size(), 1U);  // … and one view that no pose explains.
   EXPECT_EQ(found->dropped[0].name, "view 5");
   EXPECT_GE(found->points_left_out, 1);
   EXPECT_LE(found->points_left_out, 3);
@@ -376,7 +378,7 @@ TEST(LensUncertainty, IsTheSpreadOfFitsToRepeatedNoise) {
     EXPECT_NEAR(uncertainty.noise_px, kNoise_px, 0.02);
     stated += uncertainty.fx / kRuns;
   }
-  // The standard deviation of 40 draws is known to 11 %; three times that is allowed.
+  // The standard deviation of 40 draws has an error of 11 %; the tolerance is three times that.
   EXPECT_NEAR(std::sqrt(squares / kRuns) / stated, 1.0, 0.35);
 }
 

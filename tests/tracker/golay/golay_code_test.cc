@@ -23,7 +23,7 @@ TEST(GolayCode, HasTheWeightEnumeratorOfTheExtendedGolayCode) {
 }
 
 TEST(GolayCode, IsLinear) {
-  // So that all statements about errors and distances carry over from one word to all.
+  // Linearity: statements about errors and distances hold for every word.
   for (int a = 0; a < kGolayNumbers; a += 7) {
     for (int b = 0; b < kGolayNumbers; b += 5) {
       ASSERT_EQ(EncodeGolay(a) ^ EncodeGolay(b), EncodeGolay(a ^ b));
@@ -46,7 +46,7 @@ TEST(GolayCode, CarriesTheNumberInItsLowTwelveBits) {
 }
 
 TEST(GolayCode, GivesTheFrozenWords) {
-  // Prints out in the world carry these: they may never change.
+  // Printed markers use these codewords: they must never change.
   EXPECT_EQ(EncodeGolay(1), 0xA3B001U);
   EXPECT_EQ(EncodeGolay(2048), 0x7FF800U);
   EXPECT_EQ(EncodeGolay(4095), 0xFFFFFFU);

@@ -22,7 +22,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// Cells that show the print of a number without doubt.
+/// Cells with certain values for a number.
 CellLikelihoods CleanCells(int number, float likelihood = 4.0F) {
   CellLikelihoods cells;
   for (int i = 0; i < kGolayBits; ++i) {
@@ -38,7 +38,7 @@ CellLikelihoods Erase(CellLikelihoods cells, GolayWord erased) {
   return cells;
 }
 
-/// Σ ±likelihood as the documentation says it, in the order of the cells.
+/// Σ ±likelihood as documented, in the order of the cells.
 double Correlation(const CellLikelihoods& cells, int number) {
   double sum = 0.0;
   for (int i = 0; i < kGolayBits; ++i) {
@@ -48,7 +48,7 @@ double Correlation(const CellLikelihoods& cells, int number) {
 }
 
 CellLikelihoods RandomCells(std::mt19937& random) {
-  // Some certain, some doubtful, some erased.
+  // A mixture of certain, doubtful and erased cells.
   std::normal_distribution<float> normal(0.0F, 3.0F);
   std::bernoulli_distribution erased(0.1);
   CellLikelihoods cells;
@@ -118,7 +118,7 @@ TEST(SoftGolayDecoder, ReadsEveryCleanPrint) {
     const SoftGolayDecoding decoding = decoder.Decode(CleanCells(n));
     ASSERT_EQ(decoding.number, n);
     ASSERT_FLOAT_EQ(decoding.score, 24 * 4.0F);
-    // The nearest other word differs in eight cells.
+    // The nearest other codeword differs in eight cells.
     ASSERT_FLOAT_EQ(decoding.margin, 2 * 8 * 4.0F);
     ASSERT_EQ(std::popcount(CodewordOfNumber(n) ^ CodewordOfNumber(*decoding.second_number)), 8);
     ASSERT_FLOAT_EQ(decoding.agreement, 1.0F);
@@ -137,7 +137,7 @@ TEST(SoftGolayDecoder, EqualsBruteForceOnRandomLikelihoods) {
     const SoftGolayDecoding decoding = decoder.Decode(cells);
     std::vector<double> sorted = scores;
     std::sort(sorted.begin(), sorted.end(), std::greater<>());
-    // Rounding: 24 · 2⁻¹⁷ a score.
+    // Rounding: 24 · 2⁻¹⁷ per score.
     EXPECT_NEAR(scores[decoding.number], sorted[0], 4e-4);
     EXPECT_NEAR(scores[*decoding.second_number], sorted[1], 4e-4);
     EXPECT_NE(decoding.number, *decoding.second_number);
@@ -157,7 +157,7 @@ TEST(SoftGolayDecoder, EqualsBruteForceOnRandomLikelihoods) {
   }
 }
 
-// Four wrong cells are as far from another number: no hard decoder corrects them.
+// With four wrong cells another number is equally near: no hard decoder can correct them.
 TEST(SoftGolayDecoder, CorrectsFourDoubtfulCells) {
   std::mt19937 random(4);
   const SoftGolayDecoder decoder;
@@ -176,7 +176,7 @@ TEST(SoftGolayDecoder, CorrectsFourDoubtfulCells) {
 }
 
 TEST(SoftGolayDecoder, ReadsThroughAllSetsOfSevenErasedCells) {
-  // All C(24, 7) of them; the code is linear, so which number is printed does not matter.
+  // All C(24, 7) sets. The code is linear, so the printed number does not matter.
   const SoftGolayDecoder decoder;
   const CellLikelihoods clean = CleanCells(2012);
   int patterns = 0, read = 0;
@@ -195,7 +195,7 @@ TEST(SoftGolayDecoder, ReadsThroughAllSetsOfSevenErasedCells) {
 
 struct ErasureRate {
   int erased;
-  double readable;  ///< Share of the sets of `erased` cells that hold no codeword's support.
+  double readable;  ///< Share of the sets of `erased` cells that contain no codeword's support.
 };
 
 class ErasedCells : public ::testing::TestWithParam<ErasureRate> {};
@@ -210,7 +210,7 @@ TEST_P(ErasedCells, LeaveTheNumberReadableInTheirShareOfCases) {
     const int number = static_cast<int>(random() % kGolayNumbers);
     const GolayWord erased = RandomPattern(random, weight);
     const SoftGolayDecoding decoding = decoder.Decode(Erase(CleanCells(number), erased));
-    // A margin says whether the number can be trusted: never a wrong one above a margin.
+    // The margin indicates reliability: above a threshold no number may be wrong.
     if (decoding.margin == 0.0F) continue;
     ASSERT_EQ(decoding.number, number);
     ++read;
@@ -316,7 +316,7 @@ TEST(SoftGolayDecoder, IsUndecidedWhereNothingIsVisible) {
 }
 
 TEST(SoftGolayDecoder, TellsPrintsFromRandomCellsByMarginAndAgreement) {
-  // What the hard decoder cannot: 57 % of these random words are numbers to it.
+  // A hard decoder accepts 57 % of these random words as numbers.
   std::mt19937 random(8);
   std::normal_distribution<float> clutter(0.0F, 4.0F), noise(0.0F, 1.0F);
   const SoftGolayDecoder decoder;

@@ -1,5 +1,4 @@
-// Pictures found by their texture: where they are, how much of them is observed, and that nothing
-// else passes for them.
+// Tests the detection of picture targets by texture: pose, visible part, and no false detections.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -23,7 +22,7 @@ using testing::IsEmpty;
 
 constexpr double kWidth_m = 0.4;
 
-/// Things that take a while to make, made once.
+/// Objects that are slow to create, created once.
 struct Subject {
   TestPicture picture;
   std::shared_ptr<const PictureTarget> target;
@@ -52,7 +51,7 @@ GreyImage Photograph(const std::string& name) {
 constexpr const char* kPhotograph = "34139872896_defdb2f8d9_c.jpg";
 constexpr const char* kOtherPhotograph = "34085369442_304b6bafd9_c.jpg";
 
-/// Its lower right, which has most of the detail.
+/// The lower right quarter, which has most of the detail.
 GreyImage Cropped(const GreyImage& from, int x0, int y0) {
   GreyImage picture(from.width() - x0, from.height() - y0);
   for (int y = 0; y < picture.height(); ++y) {
@@ -67,7 +66,7 @@ const Subject& Photo() {
   return kSubject;
 }
 
-/// A camera whose lens bends.
+/// A camera with lens distortion.
 CameraModel BentCamera() {
   CameraModel camera = SgCamera(400, 300, 420.0);
   camera.distortion = {-0.1, 0.03, 0.0005, -0.0004, 0, 0, 0, 0};
@@ -80,19 +79,19 @@ std::unique_ptr<Tracker> MakeTracker(std::vector<std::shared_ptr<const PictureTa
   return *std::move(tracker);
 }
 
-/// One way to see a picture.
+/// One view of a picture target.
 struct View {
   const char* name;
   double side_px = 170.0, tilt_deg = 25.0;
   double blur_px = 0.5, noise_codes = 1.0;
-  double covered = 0.0;  ///< Share of the picture, from one side.
+  double covered = 0.0;  ///< Covered share, from one side.
   bool hard_light = false;
-  double corner_px = 0.1;  ///< RMS that is allowed.
+  double corner_px = 0.1;  ///< Maximum RMS.
 };
 
 void PrintTo(const View& view, std::ostream* out) { *out << view.name; }
 
-/// Two frames of a view, from directions that a seed says.
+/// Two frames of a view with random directions.
 class ImageSeen : public testing::TestWithParam<View> {
  protected:
   static void ExpectFound(const Subject& subject) {
@@ -103,14 +102,14 @@ class ImageSeen : public testing::TestWithParam<View> {
       SCOPED_TRACE(testing::Message() << subject.target->name << ", seed " << seed);
       std::mt19937 random(seed);
       const auto uniform = [&] { return random() / 4294967296.0; };
-      // One after the other: compilers differ in which argument they work out first.
+      // Separate statements, because the evaluation order of arguments is unspecified.
       const Vec2 centre_px{200 + 30 * (uniform() - 0.5), 150 + 20 * (uniform() - 0.5)};
       const double axis_deg = 360 * uniform(), roll_deg = 360 * uniform();
       HungPicture hung = HangAt(camera, subject.picture, centre_px, view.side_px, view.tilt_deg,
                                 axis_deg, roll_deg);
       const bool from_left = uniform() < 0.5;
       if (view.covered > 0.0) {
-        // Something with edges and a pattern of its own.
+        // An occluder with edges and a pattern of its own.
         hung.cover = [&, from_left](Vec2 at) {
           const double from_side = from_left ? at.x : 1.0 - at.x;
           return from_side < view.covered ? 0.2 + 0.15 * std::sin(31 * at.x) * std::sin(23 * at.y)
@@ -120,7 +119,7 @@ class ImageSeen : public testing::TestWithParam<View> {
       RenderingOptions options{
           .blur_px = view.blur_px, .noise_codes = view.noise_codes, .seed = seed};
       if (view.hard_light) {
-        // 8:1 over the picture, and the edge of a shadow four times as dark.
+        // A gradient of 8:1 over the target, and a shadow edge with a ratio of four.
         options.light = [](Vec2 pixel) {
           const double gradient = std::pow(8.0, (pixel.x - 200.0) / 170.0);
           return 0.5 * gradient * (pixel.x + 0.7 * pixel.y < 300.0 ? 1.0 : 0.25);
@@ -143,7 +142,7 @@ class ImageSeen : public testing::TestWithParam<View> {
     }
   }
 
-  /// The covered side is told from the rest.
+  /// The covered side must be distinguished from the rest.
   static void ExpectMask(const MarkerDetection& detection, double covered, bool from_left) {
     const int side = detection.visibility_side;
     ASSERT_GE(side, 3);
@@ -231,7 +230,7 @@ TEST(PictureTarget, GivesTheSameListForTheSamePicture) {
 }
 
 TEST(PictureTarget, KnowsHowSureItIsOfThePose) {
-  // Normalised estimation error squared: its mean is 6 where the covariance is right.
+  // Normalised estimation error squared: its mean is 6 for a correct covariance.
   const CameraModel camera = BentCamera();
   const auto tracker = MakeTracker({Leaves().target});
   double sum = 0.0;
@@ -267,7 +266,7 @@ TEST(PictureTarget, IsNotSeenInOtherPictures) {
   };
   for (unsigned seed = 20; seed < 26; ++seed) {
     SCOPED_TRACE(testing::Message() << "leaves of seed " << seed);
-    // Grain and shapes are those of the target, their places not.
+    // Grain and shapes equal the target's, their positions do not.
     expect_nothing(DeadLeaves(seed, 400, 300).Codes());
   }
   const TestPicture other = TestPicture::FromCodes(Photograph(kOtherPhotograph).view());
@@ -303,7 +302,8 @@ TEST(PictureTarget, IsRefusedWhereMirroredAndSaysSo) {
 }
 
 TEST(PictureTarget, IsRefusedInAnotherShape) {
-  // Stretched by a tenth: no camera sees the picture so, but from so far that it cannot tell.
+  // Stretched by a tenth: no camera sees the target like this, except from a distance where the
+  // difference disappears.
   const CameraModel camera = BentCamera();
   const auto tracker = MakeTracker({Leaves().target});
   Image<float> stretched(800, 400);

@@ -1,7 +1,7 @@
-// The tables of docs/measurements/picture-targets.md: `picture_target_evaluation PHOTOGRAPH...`
-// makes a target of each photograph (as pictures of at most 800 px), renders it under known poses,
-// and looks for all of them in parts of all the others; `picture_target_evaluation` alone prints
-// the times, on drawn pictures.
+// Prints the tables of docs/measurements/picture-targets.md. `picture_target_evaluation
+// PHOTOGRAPH...` makes a target of each photograph (at most 800 px) and renders it under known
+// poses. It then searches for every target in parts of all the other photographs.
+// `picture_target_evaluation` alone prints the times on drawn images.
 #include <ctime>
 
 #include <algorithm>
@@ -46,7 +46,7 @@ GreyImage Grey(const cv::Mat& from) {
   return grey;
 }
 
-/// The least of some runs, in milliseconds of this thread.
+/// Minimum over several runs, in milliseconds of this thread.
 template <typename Run>
 double MinTime_ms(int runs, Run run) {
   double least = 1e9;
@@ -61,7 +61,7 @@ double MinTime_ms(int runs, Run run) {
 struct Photograph {
   std::string file;
   cv::Mat picture;
-  std::shared_ptr<const PictureTarget> target;  ///< None where it makes none.
+  std::shared_ptr<const PictureTarget> target;  ///< Null if the photograph makes no target.
   int score = 0;
 };
 
@@ -86,7 +86,7 @@ constexpr View kViews[] = {{.name = "450 px", .side_px = 450},
                            {.name = "blur 2 px", .blur_px = 2.0},
                            {.name = "noise of 8 codes", .noise_codes = 8.0}};
 
-/// Times of every step, as far as they can be told apart from outside.
+/// Times of every step that can be separated from outside.
 void PrintTimes() {
   constexpr int kRuns = 15, kMakings = 3;
   std::vector<std::shared_ptr<const PictureTarget>> targets;
@@ -243,7 +243,7 @@ class Evaluation {
     return {hung, RenderPictures(Camera(), {hung}, options)};
   }
 
-  /// A part of a photograph, turned, enlarged, lit otherwise, with noise.
+  /// A part of a photograph: turned, enlarged, relit, with noise.
   static GreyImage Part(const cv::Mat& picture, unsigned seed) {
     std::mt19937 random(seed);
     const auto uniform = [&] { return random() / 4294967296.0; };

@@ -1,4 +1,4 @@
-// Target files: what is written is what is read, and nothing else is.
+// Tests target files: written content is read back, and invalid content is rejected.
 #include "tracker/picture_target/target_file.h"
 
 #include <gmock/gmock.h>
@@ -18,7 +18,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// Small, and not what a picture would give; all that a file can hold is in it.
+/// A small artificial target with every element that a file can contain.
 PictureTarget SmallTarget() {
   PictureTarget target;
   target.name = "poster – été";
@@ -54,7 +54,7 @@ void Set(std::string* bytes, std::size_t at, T value) {
   std::memcpy(bytes->data() + at, &value, sizeof(T));
 }
 
-/// After a change: the length and the checksum are those of the content again.
+/// Updates length and checksum after a change of the content.
 std::string Sealed(std::string bytes) {
   Set(&bytes, kLength, static_cast<std::uint32_t>(bytes.size() - kHeader));
   Set(&bytes, kChecksum, Crc32(std::string_view(bytes).substr(kHeader)));
@@ -98,7 +98,7 @@ TEST(TargetFile, IsLaidOutAsDocumented) {
 }
 
 TEST(TargetFile, ChecksumIsThatOfZlib) {
-  // The check value that catalogues of CRCs list for CRC-32/ISO-HDLC.
+  // The check value in catalogues of CRCs for CRC-32/ISO-HDLC.
   EXPECT_EQ(Crc32("123456789"), 0xCBF43926U);
   EXPECT_EQ(Crc32(""), 0U);
 }
@@ -111,7 +111,7 @@ TEST(TargetFile, IsRefusedWhereverItIsCut) {
     EXPECT_EQ(read.error().kind, ErrorKind::kInput);
     EXPECT_EQ(read.error().where, "cut.target");
     EXPECT_FALSE(read.error().remedy.empty());
-    // Cut and sealed again: the counts do not hold.
+    // Truncated with valid length and checksum: the counts do not match.
     if (length > kHeader) {
       const auto sealed = ParseTarget(Sealed(bytes.substr(0, length)), "cut.target");
       EXPECT_FALSE(sealed.has_value()) << length;
@@ -138,7 +138,7 @@ TEST(TargetFile, OfALaterVersionSaysSo) {
   EXPECT_THAT(read.error().Message(), HasSubstr("new.target: is a target file of version 2"));
 }
 
-/// Something hostile with the right length and checksum.
+/// Malicious content with valid length and checksum.
 struct Hostile {
   const char* name;
   std::function<void(PictureTarget*)> change;

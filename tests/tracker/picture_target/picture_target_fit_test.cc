@@ -1,4 +1,4 @@
-// Predicting and aligning pictures, against brute force and the truth.
+// Tests prediction and alignment of picture targets against brute force and the truth.
 #include "tracker/picture_target/picture_fit.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kHalf = 0.5 * kTargetSide;
 
-/// Target units from where the corners are in a camera without distortion.
+/// Homography to target units from the corners in a camera without distortion.
 Mat3 TargetFromCorners(const std::array<Vec2, 4>& corners) {
   constexpr Mat3 kTargetFromUnit{{kHalf, 0, kHalf, 0, -kHalf, kHalf, 0, 0, 1}};
   return kTargetFromUnit * Adjugate(HomographyToQuad(corners));
@@ -31,7 +31,7 @@ std::array<Vec2, 4> CornersOf(const Mat3& target_from_undistorted) {
   return corners;
 }
 
-/// A picture that hangs in view, as it is observed and as it should look.
+/// A picture in view: the observed image and its prediction.
 class PictureAlignment : public testing::Test {
  protected:
   PictureAlignment()
@@ -72,7 +72,7 @@ TEST_F(PictureAlignment, PredictsWhatAPerfectCameraSees) {
     std::vector<RowRange> ranges;
     raster.Render(pyramid_, TargetFromCorners(TrueCorners(camera_, hung)), observed.rays,
                   view.blur_px, &map, &predicted, &ranges);
-    // The renderer's white is 0.8; the pyramid's is what the brightest exceed.
+    // The renderer's white is 0.8; the pyramid's is the level that the brightest values exceed.
     double pp = 0.0, pi = 0.0, ii = 0.0;
     for (std::size_t k = 0; k < observed.value.size(); ++k) {
       if (!(map.column[k] > 4 && map.column[k] < 60 && map.row[k] > 4 && map.row[k] < 60)) continue;
@@ -81,7 +81,7 @@ TEST_F(PictureAlignment, PredictsWhatAPerfectCameraSees) {
       ii += observed.value[k] * observed.value[k];
     }
     ASSERT_GT(pp, 0.0);
-    // What is left over after one gain: interpolation blurs a little more than nothing.
+    // Residual after one exposure scale: interpolation adds slight blur.
     EXPECT_LT(1.0 - pi * pi / (pp * ii), 0.006);
   }
 }
@@ -97,7 +97,7 @@ TEST_F(PictureAlignment, SlopesAreThoseOfThePrediction) {
   constexpr double kBlur_px = 1.5, kStep_px = 0.05;
   raster.Render(pyramid_, target_from_undistorted, observed.rays, kBlur_px, &map, &at, &ranges);
   for (const bool along_x : {true, false}) {
-    // The derivative by the place of the camera, from both sides.
+    // Central difference by the camera's position.
     std::vector<double> difference(at.white.size(), 0.0);
     for (const double sign : {1.0, -1.0}) {
       const Mat3 shift{
@@ -116,7 +116,8 @@ TEST_F(PictureAlignment, SlopesAreThoseOfThePrediction) {
       error += (slope - difference[k]) * (slope - difference[k]);
       size += difference[k] * difference[k];
     }
-    // Two samples a pixel interpolate between texels; a step along these slopes is good to that.
+    // Two samples per pixel interpolate between texels; a step along these slopes has that
+    // accuracy.
     EXPECT_LT(std::sqrt(error / size), 0.08) << (along_x ? "x" : "y");
   }
 }

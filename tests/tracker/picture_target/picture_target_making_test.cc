@@ -1,4 +1,4 @@
-// Which pictures make targets, and how they are rated.
+// Tests which images make targets, and their ratings.
 #include "tracker/picture_target/target_making.h"
 
 #include <gmock/gmock.h>
@@ -45,7 +45,7 @@ TEST(TargetMaking, KeepsShapeSizeAndLight) {
   EXPECT_DOUBLE_EQ(target->height_m, 0.15);
   ASSERT_EQ(target->picture.width(), 512);
   ASSERT_EQ(target->picture.height(), 256);
-  // Halved by means of four in linear light.
+  // Halved by means of four pixels in linear light.
   const auto& linear = LinearFromSrgb8();
   for (int y = 3; y < 256; y += 41) {
     for (int x = 5; x < 512; x += 37) {
@@ -55,7 +55,7 @@ TEST(TargetMaking, KeepsShapeSizeAndLight) {
       EXPECT_NEAR(target->picture(x, y), 255.0 * SrgbFromLinear(mean), 0.51);
     }
   }
-  // Seen from many sides, and every feature on the picture.
+  // Keypoints come from many views, and all lie on the picture.
   EXPECT_GT(target->views.size(), 40U);
   EXPECT_GT(target->keypoints.size(), 1000U);
   EXPECT_LE(target->keypoints.size(), static_cast<std::size_t>(kMaxTargetKeypoints));
@@ -65,11 +65,11 @@ TEST(TargetMaking, KeepsShapeSizeAndLight) {
     EXPECT_TRUE(place.x > -0.5 && place.x < kTargetSide + 0.5) << place.x;
     EXPECT_TRUE(place.y > -0.5 && place.y < kTargetSide + 0.5) << place.y;
   }
-  // The frontal view shows it in its own proportions.
+  // The frontal view has the picture's aspect ratio.
   const auto& frontal = target->views[kFrontalView].from_target;
   EXPECT_NEAR(frontal[0] / frontal[4], 2.0, 1e-9);
   EXPECT_NEAR(frontal[1], 0.0, 1e-9);
-  // The same picture makes the same file, and the file holds all of it.
+  // The same image makes the same file, and the file contains the complete target.
   const auto again = MakePictureTarget(picture.view(), Metres(0.3), "leaves");
   ASSERT_TRUE(again.has_value());
   EXPECT_EQ(SerializeTarget(*again), SerializeTarget(*target));
@@ -84,7 +84,7 @@ TEST(TargetMaking, SaysWhatToDoAboutPicturesWithoutFeatures) {
       Drawn(300, 200, [](double x, double) { return 0.8 * x; }),
       Drawn(300, 200,
             [](double x, double y) { return std::hypot(x - 150, y - 100) < 50 ? 240 : 30; }),
-      // Detail that no camera would make out.
+      // Detail below a camera's resolution.
       Drawn(300, 200, [](double x, double y) { return 128 + std::fmod(7 * x + 13 * y, 4); })};
   for (std::size_t i = 0; i < pictures.size(); ++i) {
     SCOPED_TRACE(i);

@@ -10,7 +10,7 @@
 namespace pleinair::tracker {
 namespace {
 
-/// A blank print as large as the picture's longer side; the picture lies on it.
+/// A blank marker as large as the picture's longer side, as the support of the picture.
 RenderedMarker OnPaper(const HungPicture& hung, double background) {
   static const auto kPaper =
       std::make_shared<MarkerPattern>(MarkerPattern{.modules = 1, .edge_modules = 1, .white = {1}});
@@ -67,9 +67,9 @@ TestPicture DeadLeaves(std::uint32_t seed, int width, int height) {
   std::fill_n(picture.data(), picture.size(), -1.0F);
   const double largest = 0.25 * std::min(width, height), smallest = 3.0;
   std::size_t empty = picture.size();
-  // From the topmost down: what is covered already stays.
+  // From the topmost shape down: pixels that are covered already keep their value.
   for (int leaf = 0; leaf < 20'000 && empty > 0; ++leaf) {
-    // Density ∝ radius⁻³ between the two.
+    // Density ∝ radius⁻³ between the two limits.
     const double a = 1.0 / (smallest * smallest), b = 1.0 / (largest * largest);
     const double radius = 1.0 / std::sqrt(a + (b - a) * uniform());
     const double cx = uniform() * width, cy = uniform() * height;

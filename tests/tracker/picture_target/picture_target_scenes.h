@@ -14,17 +14,17 @@
 
 namespace pleinair::tracker {
 
-/// A picture in linear light that can be printed, hung up and rendered.
+/// A picture in linear light that can be placed in a scene and rendered.
 class TestPicture {
  public:
   explicit TestPicture(Image<float> linear) : linear_(std::move(linear)) {}
-  /// From sRGB codes.
+  /// From sRGB pixel values.
   static TestPicture FromCodes(ImageView<const std::uint8_t> codes);
 
   int width() const { return linear_.width(); }
   int height() const { return linear_.height(); }
   double Aspect() const { return static_cast<double>(width()) / height(); }
-  /// As a file would hold it.
+  /// As 8-bit pixel values.
   GreyImage Codes() const;
   /// Interpolated at (0, 0) top-left … (1, 1) bottom-right.
   double LightAt(double u, double v) const;
@@ -33,25 +33,25 @@ class TestPicture {
   Image<float> linear_;
 };
 
-/// Leaves that fall on one another until nothing else is observed, each with a shade and a grain of
-/// its own: sizes and contrasts are distributed as in photographs (Lee, Mumford, Huang, "Occlusion
+/// Overlapping shapes ("dead leaves"), each with its own grey level and grain, until the image is
+/// covered. Sizes and contrasts are distributed as in photographs (Lee, Mumford, Huang, "Occlusion
 /// models for natural images", 2001).
 TestPicture DeadLeaves(std::uint32_t seed, int width, int height);
 
-/// A picture that hangs in view.
+/// A picture in view.
 struct HungPicture {
   const TestPicture* picture = nullptr;
   double width_m = 0.4;
   Transform<Camera, Marker> camera_from_marker;
-  /// Light of what lies in front, at a point of the picture (0…1, right and down); negative where
-  /// nothing does.
+  /// Light of an occluder at a point of the picture (0…1, right and down); negative where there is
+  /// none.
   std::function<double(Vec2 at)> cover{};
   bool mirrored = false;
 
   double height_m() const { return width_m / picture->Aspect(); }
 };
 
-/// Hung with its longer side `side_px` long were it frontal, as PoseAtPixel says.
+/// Placed so that its longer side would be `side_px` long without tilt (see PoseAtPixel).
 HungPicture HangAt(const CameraModel& camera, const TestPicture& picture, Vec2 centre_px,
                    double side_px, double tilt_deg = 0.0, double axis_deg = 0.0,
                    double roll_deg = 0.0);

@@ -1,4 +1,4 @@
-// Targets followed over consecutive frames, and what that costs in memory.
+// Tests tracking of targets over consecutive frames, and its memory use.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -34,7 +34,7 @@ CameraModel Camera() { return SgCamera(320, 240, 400); }
 
 enum class Covered { kNothing, kHalf, kAll };
 
-/// A hand-held camera passes by.
+/// A hand-held camera that moves past the target.
 HungPicture Hung(int frame, Covered covered = Covered::kNothing) {
   HungPicture hung = HangAt(Camera(), Leaves().picture, {130.0 + 4.0 * frame, 110.0 + 2.5 * frame},
                             140.0 + 1.5 * frame, 25.0 + frame, 40.0, 10.0 + 1.2 * frame);
@@ -97,7 +97,7 @@ TEST_F(PictureTracking, FollowsAPictureWhileAHandPassesOverIt) {
 
 TEST_F(PictureTracking, SaysSinceWhenAPictureIsLostAndFindsItAgain) {
   EXPECT_THAT(Track(tracker_.get(), GreyImage(320, 240)), IsEmpty());
-  EXPECT_THAT(tracker_->Lost(), IsEmpty());  // Never observed is not lost.
+  EXPECT_THAT(tracker_->Lost(), IsEmpty());  // A target that was never observed is not lost.
   Track(tracker_.get(), GreyImage(320, 240));
   Track(tracker_.get(), GreyImage(320, 240));
   ExpectImage(0, Covered::kNothing, DetectionPath::kSurfGolay);
@@ -105,7 +105,7 @@ TEST_F(PictureTracking, SaysSinceWhenAPictureIsLostAndFindsItAgain) {
   ExpectLost(Frame(2, Covered::kAll), 1);
   ExpectLost(Frame(3, Covered::kAll), 2);
   ExpectLost(DeadLeaves(77, 320, 240).Codes(), 3);
-  // Far from where it went.
+  // Far from its last position.
   ExpectImage(20, Covered::kNothing, DetectionPath::kSurfGolay);
   ExpectImage(21, Covered::kNothing, DetectionPath::kTracked);
 }
@@ -134,7 +134,7 @@ TEST(ImageMemory, IsAskedForInAHandfulOfPiecesForAFollowedPicture) {
   for (int i = 0; i < kFrames; ++i) ASSERT_EQ(detector.Detect(frame.view()).size(), 1U);
   const double a_frame = static_cast<double>(Allocations() - before) / kFrames;
   RecordProperty("allocations_a_frame", std::to_string(a_frame));
-  // The list that is handed out, its visibility map, and mostly the pose; nothing a pixel, block or
+  // The returned list, its visibility map, and usually the pose. No allocation per pixel, block or
   // step.
   EXPECT_LT(a_frame, 150.0);
 }

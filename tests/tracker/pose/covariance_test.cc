@@ -1,5 +1,5 @@
-// Normalised estimation error squared (Bar-Shalom, Li & Kirubarajan 2001, section 5.4): where a
-// covariance P tells the truth, eᵀ P⁻¹ e has the mean 6 for a pose.
+// Normalised estimation error squared (Bar-Shalom, Li & Kirubarajan 2001, section 5.4). With a
+// correct covariance P, eᵀ P⁻¹ e has the mean 6 for a pose.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -31,7 +31,7 @@ double Band(int count) { return 1.96 * std::sqrt(2.0 * 6.0 / count); }
 TEST(PoseCovariance, TellsTheTruthForGaussianNoiseOnTheCorners) {
   CameraModel camera{.width = 640, .height = 480, .fx = 600, .fy = 605, .cx = 322, .cy = 238};
   camera.distortion = {-0.13, 0.045, 0.0006, -0.0004, 0, 0, 0, 0};
-  // Corners are never independent: what is true of one holds partly of its neighbours.
+  // Corners are never independent: neighbouring corners have correlated errors.
   std::mt19937 random(5);
   std::normal_distribution<double> normal;
   Matrix8 mixing = 0.03 * Matrix8::Identity();
@@ -61,8 +61,8 @@ TEST(PoseCovariance, TellsTheTruthForGaussianNoiseOnTheCorners) {
   }
 }
 
-// Of a small, little tilted print the corners now and then prefer the wrong one of two poses; the
-// covariance must not hold that for impossible.
+// The corners of a small, slightly tilted marker sometimes prefer the wrong one of two poses. The
+// covariance must not exclude that.
 TEST(PoseCovariance, CountsWithTheOtherPoseWhereTheCornersHardlyTellThemApart) {
   const CameraModel camera{.width = 640, .height = 480, .fx = 600, .fy = 605, .cx = 322, .cy = 238};
   RenderedMarker marker;
@@ -92,9 +92,9 @@ TEST(PoseCovariance, CountsWithTheOtherPoseWhereTheCornersHardlyTellThemApart) {
   EXPECT_NEAR(sum / kDraws, 6.0, 2.0);
 }
 
-// From the picture's noise to the pose, through the whole tracker. The covariance knows the noise
-// from the residuals only, and holds a floor for what they do not tell (a hundredth of a pixel in
-// the corners): it may be somewhat too wide, never too narrow.
+// From the image noise to the pose, through the whole tracker. The covariance takes the noise from
+// the residuals and adds a floor of a hundredth of a pixel in the corners. It may be somewhat too
+// wide, but never too narrow.
 TEST(PoseCovariance, IsNotTooNarrowForNoiseInThePicture) {
   const CameraModel camera{.width = 112, .height = 96, .fx = 200, .fy = 200, .cx = 56, .cy = 47};
   RenderedMarker marker;

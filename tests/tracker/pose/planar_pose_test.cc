@@ -56,13 +56,13 @@ TEST(PlanarPose, OfASquareAsThePrintIsReadHasItsFaceTowardsTheCamera) {
       EstimatePlanarPose(camera, corners, IsotropicCornerCovariance(0.1), Metres(0.1));
   ASSERT_TRUE(pose.has_value());
   const Mat3& rotation = pose->best.camera_from_marker.rotation;
-  EXPECT_GT(rotation(0, 0), 0.9);   // x right in the picture,
+  EXPECT_GT(rotation(0, 0), 0.9);   // x right in the image,
   EXPECT_LT(rotation(1, 1), -0.9);  // y up,
   EXPECT_LT(rotation(2, 2), -0.9);  // z towards the camera.
 }
 
-// Schweighofer & Pinz 2006: a small, distant, slightly tilted target has two poses that explain it
-// about as well. Half a pixel of noise cannot tell them apart.
+// Schweighofer & Pinz 2006: a small, distant, slightly tilted target has two poses with similar
+// errors. Half a pixel of noise makes them indistinguishable.
 TEST(PlanarPose, ReportsTheOtherSolutionWhereTheTargetIsSmallAndNearlyFrontal) {
   const CameraModel camera = Camera640();
   const RenderedMarker marker = MarkerAt(camera, {330, 250}, 15, 20);
@@ -92,15 +92,15 @@ TEST(PlanarPose, GoesOnFromTheRotationBeforeWhereTheCornersDoNotDecide) {
   const auto turned = EstimatePlanarPose(camera, corners, covariance, marker.size, &other);
   ASSERT_TRUE(turned.has_value());
   EXPECT_EQ(turned->best.camera_from_marker.rotation, other);
-  // Sharp corners decide for themselves.
+  // Accurate corners are unambiguous.
   const auto sharp =
       EstimatePlanarPose(camera, corners, IsotropicCornerCovariance(0.001), marker.size, &other);
   ASSERT_TRUE(sharp.has_value());
   EXPECT_LT(MaxDifference(sharp->best.camera_from_marker, marker.camera_from_marker), 1e-4);
 }
 
-// The odds that the ratio states are those that come true, for errors of the covariance stated; it
-// must never be more certain than that.
+// The reported ambiguity ratio must equal the observed odds for errors with the given covariance.
+// It must never be overconfident.
 TEST(PlanarPose, StatesARatioThatComesTrueAmongSmallTargets) {
   const CameraModel camera = Camera640();
   std::mt19937 random(5);

@@ -1,4 +1,4 @@
-// How near to the best pose the refinement of planar_pose.h ends.
+// Tests how near to the optimal pose the refinement of planar_pose.h ends.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -16,7 +16,7 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Vector8 = Eigen::Matrix<double, 8, 1>;
 using RowMajor3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
-/// camera_from_marker' = (Exp(w) R, (1 + d) t), d coordinate by coordinate of the distance.
+/// camera_from_marker' = (Exp(w) R, (1 + d) t), d per coordinate, relative to the distance.
 Transform<Camera, Marker> Moved(const Transform<Camera, Marker>& pose, const Vector6& move) {
   Transform<Camera, Marker> moved = pose;
   const Eigen::Vector3d w = move.head<3>();
@@ -30,8 +30,9 @@ Transform<Camera, Marker> Moved(const Transform<Camera, Marker>& pose, const Vec
   return moved;
 }
 
-/// Distance between a pose and the least squares pose nearest to it, in standard deviations of the
-/// corners: Levenberg–Marquardt by differences of projected corners, until 1e-13 of χ² is gained.
+/// Distance between a pose and the nearest least-squares pose, in standard deviations of the
+/// corners. Levenberg–Marquardt with numerical differences of projected corners, until χ² falls by
+/// less than 1e-13.
 double FromTheMinimum(const CameraModel& camera, const RenderedMarker& marker,
                       const std::array<Vec2, 4>& corners, double sigma_px,
                       const Transform<Camera, Marker>& pose) {
@@ -84,9 +85,8 @@ INSTANTIATE_TEST_SUITE_P(PlanarPose, PoseRefinement,
                                          Seen{"Tilted", 120, 50}, Seen{"Steep", 60, 78}),
                          [](const auto& observed) { return observed.param.name; });
 
-// A step that gains 1e-8 of χ² moves the corners by a ten-thousandth of their error: the pose ends
-// about so near to the minimum, however the camera sees the marker, and no run of short steps stops
-// on the way to it.
+// A step that reduces χ² by 1e-8 moves the corners by 1e-4 of their error. The pose must end about
+// that close to the minimum for every view. No sequence of short steps may stop on the way.
 TEST_P(PoseRefinement, EndsTwoTenThousandthsOfTheCornersErrorFromTheMinimum) {
   CameraModel camera{.width = 640, .height = 480, .fx = 600, .fy = 605, .cx = 322, .cy = 238};
   camera.distortion = {-0.13, 0.045, 0.0006, -0.0004, 0, 0, 0, 0};

@@ -1,4 +1,4 @@
-// No memory is asked for once the buffers have grown: counts every operator new of this program.
+// Tests that no memory is allocated once the buffers have grown, by counting operator new.
 
 #include <gtest/gtest.h>
 

@@ -20,7 +20,7 @@ std::vector<Quad> Detect(const GreyImage& image) {
   return quads;
 }
 
-/// Error of the corners of a single print, RMS in pixels.
+/// Corner error of a single marker, RMS in pixels.
 double ErrorOf(const CameraModel& camera, const RenderedMarker& print,
                const RenderingOptions& options) {
   return NearestError(Detect(RenderMarkers(camera, {print}, options)), TrueCorners(camera, print));
@@ -61,8 +61,8 @@ TEST(QuadDetector, FindsPrintsInNoise) {
 TEST(QuadDetector, FindsPrintsInTheDark) {
   const CameraModel camera = Pinhole(160, 160);
   RenderedMarker print = MarkerAt(camera, 8, {80.0, 80.0}, 80, 20, 70, 30);
-  print.black = 0.0012;  // Code 4.
-  print.white = 0.0212;  // Code 40.
+  print.black = 0.0012;  // Pixel value 4.
+  print.white = 0.0212;  // Pixel value 40.
   for (const unsigned seed : {1U, 2U, 3U}) {
     EXPECT_LT(ErrorOf(camera, print,
                       {.background = 0.006, .noise_codes = 2.0, .seed = seed, .light = {}}),
@@ -73,7 +73,7 @@ TEST(QuadDetector, FindsPrintsInTheDark) {
 TEST(QuadDetector, FindsPrintsOutOfFocus) {
   const CameraModel camera = Pinhole(180, 180);
   const RenderedMarker print = MarkerAt(camera, 3, {91.0, 88.0}, 100, 15, 120, 25);
-  // A disk of 2.5 px radius spreads light as a Gaussian of half that.
+  // A disk of 2.5 px radius has the same spread as a Gaussian with half of that as σ.
   EXPECT_LT(ErrorOf(camera, print, {.blur_px = 1.25, .light = {}}), 0.5);
   EXPECT_LT(ErrorOf(camera, print, {.blur_px = 2.5, .light = {}}), 1.0);
 }
@@ -140,7 +140,7 @@ TEST(QuadDetector, FindsFiftyPrintsAtOnceAndLittleElse) {
 
 TEST(QuadDetector, FindsPrintsWhoseQuietZoneLiesInClutter) {
   const CameraModel camera = Pinhole(160, 160);
-  // Checks of the print's own black and white, as wide as its rim, right up to the quiet zone.
+  // Checks in the marker's black and white, as wide as its rim, up to the quiet zone.
   const RenderedMarker print = MarkerAt(camera, 21, {80.0, 80.0}, 60, 20, 40, 33);
   RenderedMarker checks = MarkerAt(camera, 0, {80.0, 80.0}, 150, 0, 0, 0);
   auto pattern = std::make_shared<MarkerPattern>();
@@ -150,7 +150,7 @@ TEST(QuadDetector, FindsPrintsWhoseQuietZoneLiesInClutter) {
   const GreyImage image =
       RenderMarkers(camera, {checks, print}, {.blur_px = 0.55, .noise_codes = 3.0, .light = {}});
   EXPECT_LT(NearestError(Detect(image), TrueCorners(camera, print)), 0.5);
-  // On black.
+  // On a black background.
   EXPECT_LT(ErrorOf(camera, print, {.background = 0.04, .blur_px = 0.55, .light = {}}), 0.5);
 }
 
@@ -165,7 +165,7 @@ TEST(QuadDetector, GivesCornersClockwiseAndTheContrastOfTheRim) {
     const Vec2 after = corners[(i + 2) % 4] - corners[(i + 1) % 4];
     EXPECT_GT(before.x * after.y - before.y * after.x, 0.0);
   }
-  // White 0.8 is code 231, black 0.04 code 56.
+  // White 0.8 has the pixel value 231, black 0.04 has 56.
   EXPECT_NEAR(quads[0].contrast, 175.0, 2.0);
 }
 

@@ -1,4 +1,4 @@
-// The stages of the quad detector, each against a plain implementation.
+// Tests each stage of the quad detector against a plain implementation.
 
 #include <gtest/gtest.h>
 #include <hwy/highway.h>
@@ -18,7 +18,7 @@
 namespace pleinair::tracker {
 namespace {
 
-/// Noise whose range changes over the image, so that some neighbourhoods have contrast.
+/// Noise whose amplitude varies over the image, so that some neighbourhoods have contrast.
 GreyImage UnevenNoise(int width, int height, unsigned seed) {
   std::mt19937 random(seed);
   GreyImage image(width, height);
@@ -57,7 +57,7 @@ INSTANTIATE_TEST_SUITE_P(All, DarkMaskVectors,
                          [](const auto& target) { return hwy::TargetName(target.param); });
 
 TEST(DarkMask, ThresholdsHalfWayBetweenTheExtremesOfNineTiles) {
-  // A step from 20 to 200 with one column of 111 between: half way is 110.
+  // A step from 20 to 200 with one column of 111 between; the midpoint is 110.
   GreyImage image(32, 12);
   for (int y = 0; y < 12; ++y) {
     for (int x = 0; x < 32; ++x) image(x, y) = x < 16 ? 20 : x == 16 ? 111 : 200;
@@ -66,13 +66,13 @@ TEST(DarkMask, ThresholdsHalfWayBetweenTheExtremesOfNineTiles) {
   BitMask mask;
   ComputeDarkMask(image.view(), {64, 2, 4}, ScalarDarkMaskKernels(), &buffers, &mask);
   for (int x = 0; x < 32; ++x) {
-    // Left of 12 a tile has no bright neighbour, hence no contrast.
+    // Tiles left of 12 have no bright neighbour and therefore no contrast.
     EXPECT_EQ(mask(x, 5), x >= 12 && x < 16) << x;
   }
   for (int y = 0; y < 12; ++y) image(16, y) = 109;
   ComputeDarkMask(image.view(), {64, 2, 4}, ScalarDarkMaskKernels(), &buffers, &mask);
   EXPECT_TRUE(mask(16, 5));
-  // A quarter of the way is 65.
+  // A quarter of the range is 65.
   for (const int value : {64, 66}) {
     for (int y = 0; y < 12; ++y) image(16, y) = static_cast<std::uint8_t>(value);
     ComputeDarkMask(image.view(), {64, 2, 2}, ScalarDarkMaskKernels(), &buffers, &mask);
@@ -98,7 +98,7 @@ TEST(DarkMask, HasNoSpeckleWhereThereIsOnlyNoise) {
   }
 }
 
-/// Flood fill: for each component in the order of its first pixel, its extent and area.
+/// Flood fill: extent and area of each component, in the order of first pixels.
 std::vector<std::vector<int>> Filled(const BitMask& mask) {
   std::vector<std::uint8_t> observed(static_cast<std::size_t>(mask.width) * mask.height);
   std::vector<std::vector<int>> found;
@@ -157,7 +157,7 @@ TEST(DarkComponents, AreThoseOfAFloodFill) {
   }
 }
 
-/// A square of `side_px` turned about the middle of an image.
+/// A square of `side_px` rotated about the image centre.
 Quad TurnedSquare(double side_px, double turn_deg, double middle_px) {
   Quad quad{};
   for (int i = 0; i < 4; ++i) {
@@ -168,7 +168,8 @@ Quad TurnedSquare(double side_px, double turn_deg, double middle_px) {
   return quad;
 }
 
-/// What is dark at half size of such a square, black on white, its edge blurred over 3 px.
+/// The dark component of such a square at half size, black on white, with an edge blurred over 3
+/// px.
 DarkComponent SeenAtHalfSize(const Quad& square, double side_px) {
   const Vec2 middle = (square.corners_px[0] + square.corners_px[2]) * 0.5;
   const Vec2 along = (square.corners_px[1] - square.corners_px[0]) * (1.0 / side_px);
@@ -177,7 +178,7 @@ DarkComponent SeenAtHalfSize(const Quad& square, double side_px) {
   for (int y = 0; y < size; ++y) {
     for (int x = 0; x < size; ++x) {
       const Vec2 at{x - middle.x, y - middle.y};
-      // Light is the product of what both edges let through.
+      // The product of both axes' coverages.
       const auto dark = [&](double from_middle) {
         return std::clamp(0.5 + (0.5 * side_px - std::fabs(from_middle)) / 3.0, 0.0, 1.0);
       };
@@ -193,7 +194,7 @@ DarkComponent SeenAtHalfSize(const Quad& square, double side_px) {
   ComputeDarkMask(half.view(), {150, 1, 2}, ScalarDarkMaskKernels(), &buffers, &mask);
   DarkComponents components;
   components.Find(mask);
-  // The rim alone is dark beside its neighbourhood; what lies within it is none.
+  // Only the rim is darker than its neighbourhood; the interior is not dark.
   return *std::ranges::max_element(components.components(), {}, [](const DarkComponent& component) {
     return component.max_x - component.min_x;
   });
@@ -211,7 +212,7 @@ TEST(QuadBox, IsFilledByATurnedSquareSeenAgainAtHalfSize) {
 TEST(QuadBox, IsNotFilledByWhatEndsElsewhereHoweverLargeTheSquare) {
   for (const double side : {60.0, 300.0, 1000.0}) {
     const Quad square = TurnedSquare(side, 0.0, side);
-    const auto fills = [&](int inset) {  // Pixels of half size, on one side only.
+    const auto fills = [&](int inset) {  // In pixels of half size, on one side only.
       const int first = static_cast<int>(std::lround(0.25 * side));
       const int last = static_cast<int>(std::lround(0.75 * side)) - 1;
       DarkComponent component{};
@@ -222,7 +223,7 @@ TEST(QuadBox, IsNotFilledByWhatEndsElsewhereHoweverLargeTheSquare) {
     };
     EXPECT_TRUE(fills(0)) << side;
     EXPECT_TRUE(fills(1)) << side;
-    // 6 px, where another outline may be meant: a print's rim is a tenth of it wide.
+    // 6 px, where another outline is possible: a marker's rim is a tenth of its edge wide.
     EXPECT_FALSE(fills(3)) << side;
     EXPECT_FALSE(fills(-3)) << side;
   }

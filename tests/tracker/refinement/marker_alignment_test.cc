@@ -32,7 +32,7 @@ CameraModel Fisheye() {
   return camera;
 }
 
-/// What a set of poses showed, along the outward diagonal (a size bias), and in x and y.
+/// Errors over a set of poses: along the outward diagonal (a size bias), and in x and y.
 struct Errors {
   int found = 0, aligned = 0;
   double raw_rms_px = 0.0, rms_px = 0.0;
@@ -46,7 +46,7 @@ struct Sweep {
   RenderingOptions rendering;
 };
 
-/// Detector, then alignment where it says that it worked, at random poses.
+/// Detection, then alignment where the detector succeeds, at random poses.
 Errors Measure(const CameraModel& camera, const Sweep& sweep) {
   std::mt19937 random(20140707);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
@@ -88,7 +88,7 @@ Errors Measure(const CameraModel& camera, const Sweep& sweep) {
   errors.raw_rms_px = std::sqrt(errors.raw_rms_px / count);
   errors.bias_px = errors.bias_px * (1.0 / count);
   errors.outward_px /= count;
-  // For docs/measurements/tracker.md: --gtest_output=xml keeps them.
+  // Values for docs/measurements/tracker.md; --gtest_output=xml records them.
   testing::Test::RecordProperty("found", std::to_string(errors.found));
   testing::Test::RecordProperty("detector_rms_px", std::to_string(errors.raw_rms_px));
   testing::Test::RecordProperty("aligned_rms_px", std::to_string(errors.rms_px));
@@ -102,7 +102,8 @@ TEST_P(MarkerAlignmentThroughLens, HasNoBiasInCleanPictures) {
   const Errors errors = Measure(GetParam(), {});
   EXPECT_EQ(errors.found, 20);
   EXPECT_EQ(errors.aligned, 20);
-  EXPECT_GT(errors.raw_rms_px, 0.2);  // What the sRGB curve does to a detector on grey.
+  EXPECT_GT(errors.raw_rms_px,
+            0.2);  // The effect of the sRGB curve on a detector that uses grey values.
   EXPECT_LT(errors.rms_px, 0.02);
   EXPECT_NEAR(errors.bias_px.x, 0.0, 0.005);
   EXPECT_NEAR(errors.bias_px.y, 0.0, 0.005);
@@ -132,7 +133,7 @@ INSTANTIATE_TEST_SUITE_P(Lenses, MarkerAlignmentThroughLens,
 
 TEST(MarkerAlignment, IsBetterThanTheDetectorAcrossAHardShadow) {
   Sweep sweep;
-  // A shadow's edge, 1 px soft, through the middle of the image: a third of the light behind it.
+  // A shadow edge, 1 px soft, through the image centre: a third of the light remains behind it.
   sweep.rendering.light = [](Vec2 pixel) {
     const double distance = (pixel.x - 88) * 0.8 + (pixel.y - 70) * 0.6;
     return 0.33 + 0.67 * std::clamp(distance + 0.5, 0.0, 1.0);

@@ -10,12 +10,12 @@
 namespace pleinair::tracker {
 namespace {
 
-// Two halves, black at the left: coverage across one straight edge is known in closed form.
+// Two halves, black at the left: the coverage across one straight edge has a closed form.
 MarkerPattern Halves() { return {.modules = 2, .edge_modules = 2, .white = {0, 1, 0, 1}}; }
 
 TEST(MarkerCoverage, OfAPixelOnAStraightEdgeIsTheShareOfItsArea) {
   const MarkerPattern pattern = Halves();
-  constexpr double kPerPixel = 0.02;  // Half edges: the print is 100 px wide.
+  constexpr double kPerPixel = 0.02;  // Half edges: the marker is 100 px wide.
   for (const double offset_px : {-0.4, -0.2, 0.0, 0.1, 0.3}) {
     const Coverage coverage = CoverageOfPixel(pattern, {offset_px * kPerPixel, 0.1}, {kPerPixel, 0},
                                               {0, -kPerPixel}, 0.05);

@@ -8,8 +8,8 @@
 
 namespace pleinair::tracker {
 
-/// Runs each test once with every set of instructions that was built and that this machine has; to
-/// be instantiated with testing::ValuesIn(hwy::SupportedAndGeneratedTargets()).
+/// Runs each test once for every compiled instruction set that this machine supports. Instantiate
+/// with testing::ValuesIn(hwy::SupportedAndGeneratedTargets()).
 class OnEveryTarget : public testing::TestWithParam<std::int64_t> {
  protected:
   void SetUp() override {

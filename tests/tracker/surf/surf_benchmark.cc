@@ -1,5 +1,5 @@
-// Time of SURF and its peers on an image of 640x480, and of matching descriptors. The image is
-// the first one named in PLEINAIR_SURF_PICTURE, or a texture made here.
+// Measures the time of SURF and its peers on an image of 640x480, and of descriptor matching. The
+// image is the first one named in PLEINAIR_SURF_PICTURE, or a synthetic texture.
 
 #include <cstdlib>
 #include <memory>

@@ -1,4 +1,4 @@
-// What the cells of a marker look like, and how sure that is.
+// Tests the observed cell values of a marker and their likelihoods.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,13 +22,13 @@
 namespace pleinair::tracker {
 namespace {
 
-/// Where a cell's middle lies on the print: half edges from its centre, x right, y up.
+/// A cell's centre on the marker: half edges from the marker's centre, x right, y up.
 Vec2 CellMiddle(int cell) {
   const auto at = [](int index) { return (index - 2) * sg::kCell / (0.5 * sg::kEdge); };
   return {at(sg::CodeCellColumn(cell)), -at(sg::CodeCellRow(cell))};
 }
 
-/// The cells of a marker whose border was fitted from where it truly is.
+/// The cells of a marker whose border was fitted from its true position.
 class ReadCells {
  public:
   ReadCells(const CameraModel& camera, const RenderedMarker& marker,
@@ -64,7 +64,7 @@ RenderedMarker Marker(const CameraModel& camera, double side_px) {
   return SgMarkerAt(camera, kNumber, {80, 75}, side_px, 20, 50, 8);
 }
 
-/// Cells whose likelihood plainly speaks for the other color.
+/// Cells whose likelihood clearly favours the wrong color.
 int PlainlyWrong(const CellReading& cells) {
   int wrong = 0;
   for (int k = 0; k < sg::kCodeCells; ++k) {
@@ -99,7 +99,7 @@ TEST(SgCells, SayNothingWhereTheyAreCovered) {
   for (const double light : {0.12, 0.3, 0.5}) {
     SCOPED_TRACE(testing::Message() << "cover of light " << light);
     RenderedMarker marker = Marker(camera, 90);
-    // The two columns of cells on the right and nothing else.
+    // Only the two right columns of cells.
     marker.cover = [=](Vec2 at) {
       return at.x > 0.1 && at.x < 0.5 && std::fabs(at.y) < 0.5 ? light : -1.0;
     };
@@ -119,7 +119,7 @@ TEST(SgCells, SayNothingWhereTheyAreCovered) {
 
 TEST(SgCells, AreNotSeenBeyondThePicture) {
   const CameraModel camera = SgCamera(160, 150, 300);
-  // The right of the print is cut off.
+  // The right of the marker is outside the image.
   const RenderedMarker marker = SgMarkerAt(camera, kNumber, {148, 75}, 110);
   const ReadCells cells(camera, marker, {.blur_px = 0.5, .noise_codes = 1.0});
   ASSERT_TRUE(cells.ok());
@@ -143,7 +143,7 @@ TEST(SgCells, ShowThroughGlareThatIsSmooth) {
     const double away = Norm(pixel - Vec2{95, 70}) / 22.0;
     return 0.35 * std::exp(-0.5 * away * away);
   };
-  // White that the glare does not take beyond what the camera can hold.
+  // White that the glare does not push beyond the camera's range.
   RenderedMarker marker = Marker(camera, 100);
   marker.white = 0.45;
   marker.black = 0.03;
@@ -162,7 +162,7 @@ TEST(SgCells, ShowThroughGlareThatIsSmooth) {
   EXPECT_GT(agreement(*glared), agreement(*plain));
 }
 
-// Light that saturates most of the content: what is left at its fringe must be told from covers.
+// Glare that saturates most of the content: cells at its fringe must be distinguished from covers.
 TEST(SgCells, ShowAroundTheCoreOfAHighlight) {
   const CameraModel camera = SgCamera(160, 150, 300);
   RenderingOptions options{.blur_px = 0.5, .noise_codes = 1.5};
@@ -179,12 +179,11 @@ TEST(SgCells, ShowAroundTheCoreOfAHighlight) {
   EXPECT_GT(decoding.margin, 8.0F);
 }
 
-// The border beside the content, which is known, tells the light on cells of which nearly nothing
-// is left; and a cell that is whiter than white with it is white under more of it.
+// The known border beside the content determines the light on cells with almost no remaining
+// contrast. A cell brighter than white is white under more glare.
 TEST(SgCells, ShowAroundHighlightsByWhatIsKnownBesideThem) {
-  // Of what glare leaves, so much must tell; without the border beside the content the margins of
-  // the first two are 8 and 10, with cells that are whiter than white those of the others 49
-  // and 23.
+  // Minimum margins with the remaining contrast. Without the border beside the content the first
+  // two are 8 and 10. Counting cells brighter than white, the others are 49 and 23.
   struct {
     Vec2 middle;
     double radius_px;
@@ -207,7 +206,7 @@ TEST(SgCells, ShowAroundHighlightsByWhatIsKnownBesideThem) {
   }
 }
 
-// Paper near the brightest that the image can hold looks no whiter than white where it glares.
+// Paper near the maximum of the image range cannot look brighter than white under glare.
 TEST(SgCells, GlareWhereLightDrownsThem) {
   const CameraModel camera = SgCamera(160, 150, 300);
   RenderedMarker marker = Marker(camera, 110);
@@ -289,7 +288,7 @@ TEST(SgCells, AreNotToldAtAGlanceWhereAnythingIsDoubtful) {
   EXPECT_FALSE(told(SgMarkerAt(camera, kNumber, {148, 75}, 110), {.blur_px = 0.5}));
 }
 
-// A hand is darker than any white cell that lies open beside it, and much lighter than ink.
+// A hand is darker than any visible white cell beside it, and much lighter than ink.
 TEST(SgCells, PartIntoBlackAndWhiteWithoutAHandForInk) {
   CellReading cells;
   cells.observed.fill(true);
@@ -322,7 +321,7 @@ TEST(SgCells, LeaveNothingOfTheReadingBefore) {
   const MarkerPattern blank = SgMarkerPatternOfWord(0);
   ObservedPatch observed;
   BlockFit fit;
-  // A print that lies beside the window has no cells there.
+  // A marker outside the window has no cells there.
   const BlockFitState state{Mat3{{0.5, 0, 900, 0, 0.5, 900, 0, 0, 1}}, 0.5};
   const GreyImage image(camera.width, camera.height);
   TakeLinearWindow(lens, image.view(), {0, 0, 0, camera.width, camera.height}, &observed);

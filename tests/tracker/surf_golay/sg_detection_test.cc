@@ -1,4 +1,4 @@
-// S-G markers in single images: found, told apart and measured.
+// Tests S-G markers in single images: detection, identification and pose.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ namespace {
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// A lens and a sensor as good cameras have them.
+/// A typical good lens and sensor.
 RenderingOptions Picture(std::uint32_t seed) {
   return {.blur_px = 0.5, .noise_codes = 1.0, .seed = seed};
 }
@@ -64,7 +64,7 @@ TEST(SgDetection, MeasuresThroughNoiseAsLargeAsThePrintsContrast) {
   EXPECT_LT(std::sqrt(squares / kPictures), 0.5);
 }
 
-/// Noise of photons and of reading them out: of variance 0.0288 at white, 0.0023 at black.
+/// Photon noise and readout noise: variance 0.0288 at white, 0.0023 at black.
 void AddPhotonNoise(std::uint32_t seed, GreyImage* image) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal;
@@ -121,7 +121,7 @@ TEST(SgDetection, TellsTheRotationAndTheTranslation) {
   for (Tracker* const tracker : {straight.get(), bent.get()}) {
     CameraModel its = SgCamera();
     if (tracker == bent.get()) its.distortion = camera.distortion;
-    // Each quarter of a turn: what is up on the print must be up in the pose.
+    // Every quarter turn: up on the marker must be up in the pose.
     for (const double roll_deg : {10.0, 100.0, 190.0, 280.0}) {
       SCOPED_TRACE(testing::Message() << "roll " << roll_deg);
       const RenderedMarker marker = SgMarkerAt(its, 99, {120, 100}, 110, 35, 60, roll_deg);
@@ -154,7 +154,7 @@ TEST(SgDetection, TellsTenMarkersInViewApart) {
 }
 
 TEST(SgDetection, FindsFortyMarkersByTheirBordersAlone) {
-  // Together they have several times the keypoints that are described at once.
+  // Together they have several times the maximum number of described keypoints.
   const CameraModel camera = SgCamera(640, 480, 600);
   std::vector<RenderedMarker> markers(40);
   for (int i = 0; i < 40; ++i) {
@@ -221,7 +221,7 @@ TEST(SgDetection, RefusesAMirroredPrintAndSaysSo) {
   ASSERT_EQ(tracker->Warnings().size(), 1U);
   EXPECT_THAT(tracker->Warnings()[0], HasSubstr("mirror"));
   EXPECT_THAT(tracker->Warnings()[0], HasSubstr("321"));
-  // The warning is about one image, not for ever.
+  // The warning applies to one image only.
   ExpectOnly(Track(tracker.get(), right_way_round), 321);
   EXPECT_THAT(tracker->Warnings(), IsEmpty());
 }

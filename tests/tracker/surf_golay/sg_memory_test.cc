@@ -1,4 +1,4 @@
-// What tracking costs in memory: counts every operator new of this program.
+// Measures the memory that tracking allocates, by counting operator new.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -11,7 +11,7 @@
 namespace pleinair::tracker {
 namespace {
 
-/// Frames of a hand-held camera: two markers, one of which is covered now and then.
+/// Frames of a hand-held camera: two markers, one of which is sometimes covered.
 std::vector<GreyImage> Frames(const CameraModel& camera) {
   std::vector<GreyImage> frames;
   for (int i = 0; i < 10; ++i) {
@@ -33,10 +33,10 @@ TEST(SgMemory, HoldsTheSameMemoryAfterHundredsOfFrames) {
       for (const GreyImage& frame : frames) EXPECT_TRUE(tracker->Track(frame.view()).has_value());
     }
   };
-  go_round(60);  // Until every buffer has met its largest frame: the last did in round 45.
+  go_round(60);  // Until every buffer has met its largest frame; the last one did in round 45.
   const long before = LiveBytes();
   go_round(20);
-  // The last round's frame and searches are those of the first; buffers may differ in slack.
+  // The last round's frame and searches equal the first's; buffers may differ in slack.
   EXPECT_NEAR(static_cast<double>(LiveBytes()), static_cast<double>(before), 4096.0);
 }
 
@@ -51,7 +51,7 @@ TEST(SgMemory, IsAskedForInAHandfulOfPiecesForATrackedMarker) {
   for (int i = 0; i < kFrames; ++i) ASSERT_EQ((*detector)->Detect(frame.view()).size(), 2U);
   const double a_marker = static_cast<double>(Allocations() - before) / (2 * kFrames);
   RecordProperty("allocations_a_marker_and_frame", std::to_string(a_marker));
-  // The list that is handed out with its visibility maps; nothing a pixel, block or step.
+  // The returned list with its visibility maps. No allocation per pixel, block or step.
   EXPECT_LT(a_marker, 20.0);
 }
 

@@ -1,4 +1,4 @@
-// Pictures that hold no S-G marker, and images that are hardly images.
+// Tests images without S-G markers, and degenerate images.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -88,7 +88,8 @@ TEST(SgDetection, RefusesPicturesThatAreNotItsCameras) {
   }
 }
 
-/// Random modules; with the three eyes of a QR code where asked. Quiet zone as the marker's.
+/// Random modules, optionally with the three finder patterns of a QR code. The quiet zone is the
+/// marker's.
 std::shared_ptr<const MarkerPattern> RandomGrid(unsigned seed, int side, bool eyes) {
   std::mt19937 random(seed);
   MarkerPattern grid;
@@ -122,7 +123,7 @@ std::shared_ptr<const MarkerPattern> Chequers(int side) {
   return std::make_shared<MarkerPattern>(grid);
 }
 
-/// The rim of a marker, its border's colors drawn at random, and cells that are half wrong.
+/// A marker's rim with a randomly colored border, and cells that are half wrong.
 std::shared_ptr<const MarkerPattern> ForgedBorder(unsigned seed) {
   std::mt19937 random(seed);
   MarkerPattern print = SgMarkerPatternOfWord(CodewordOfNumber(17) ^ 0x0F0F0F);
@@ -151,7 +152,7 @@ TEST(SgDetection, SeesNoMarkerInOtherPrints) {
     prints.emplace_back("AprilTag " + std::to_string(seed), AprilTagPattern("tag36h11", seed));
   }
   const auto tracker = MakeSgTracker(camera);
-  // With one number in use there is no other that could be likelier.
+  // With one number in use there is no alternative that could be more likely.
   const auto one = MakeSgTracker(camera, {.numbers_in_use = {17}});
   std::uint32_t seed = 1;
   for (const auto& [name, print] : prints) {
@@ -166,7 +167,7 @@ TEST(SgDetection, SeesNoMarkerInOtherPrints) {
   }
 }
 
-/// Cells of `word` that differ from the most similar number's.
+/// Number of cells in which `word` differs from the nearest number.
 int CellsFromNearestNumber(GolayWord word) {
   int nearest = kGolayBits;
   for (int number = 0; number < kGolayNumbers; ++number) {
@@ -179,7 +180,7 @@ TEST(SgDetection, GivesNoNumberToCellsThatAreNoNumbers) {
   const CameraModel camera = SgCamera();
   const auto tracker = MakeSgTracker(camera);
   const auto one = MakeSgTracker(camera, {.numbers_in_use = {17}});
-  // All black and all white lie four cells from the nearest number (golay_code.h), as does what is
+  // All black and all white are four cells from the nearest number (golay_code.h). So are the words
   // four cells from 17; the last two are half wrong.
   const GolayWord near = CodewordOfNumber(17);
   std::uint32_t seed = 1;
@@ -218,8 +219,8 @@ TEST(SgDetection, GivesMirroredPrintsNoNumberFromAnywhere) {
   }
 }
 
-// Each pair differs in eight cells that have one color on the first print and touch each other: as
-// the second print would look under one cover of ink or paper.
+// Each pair differs in eight adjacent cells that have one color on the first marker. The first
+// marker thus equals the second one under a cover of ink or paper.
 TEST(SgNegative, TakesAPrintNotInUseForNoCoveredOneThatIsAndStillReadsThatOneCovered) {
   struct {
     int printed, in_use;
@@ -238,7 +239,7 @@ TEST(SgNegative, TakesAPrintNotInUseForNoCoveredOneThatIsAndStillReadsThatOneCov
       EXPECT_TRUE(none.empty()) << Summary(none);
     }
 
-    // A hand on all but one or two of the cells that differ: what is left still tells.
+    // A hand on all but one or two of the differing cells: the visible ones must decide.
     for (const int left_open : {1, 2}) {
       GolayWord hidden = CodewordOfNumber(printed) ^ CodewordOfNumber(in_use);
       for (int i = 0; i < left_open; ++i) hidden &= hidden - 1;
@@ -267,8 +268,8 @@ TEST(SgNegative, TakesAPrintNotInUseForNoCoveredOneThatIsAndStillReadsThatOneCov
   }
 }
 
-// What covers the cells of a marker may look like the border of another one, squeezed or small: of
-// a print across one whose border lies open at least half must be observed.
+// A cover on the cells may resemble the border of another marker, squeezed or small. At least half
+// of a marker must be visible to be detected across one with a visible border.
 TEST(SgNegative, SeesNoMostlyCoveredPrintAcrossAnotherWhoseBorderLiesOpen) {
   const CameraModel camera = SgCamera();
   const auto tracker = MakeSgTracker(camera);

@@ -1,4 +1,4 @@
-// S-G markers that are partly covered, shadowed or dazzled.
+// Tests S-G markers that are partly covered, shadowed or under glare.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,16 +10,16 @@
 namespace pleinair::tracker {
 namespace {
 
-/// Whether a point of the print (modules of the black square) is covered.
+/// True if a point of the marker (modules of the black square) is covered.
 using Cover = std::function<bool(Vec2 modules)>;
 
-constexpr double kSkin = 0.30;  ///< Linear light, between the print's black and white.
+constexpr double kSkin = 0.30;  ///< Linear light, between the marker's black and white.
 
 void Lay(const Cover& cover, RenderedMarker* marker, double light = kSkin) {
   marker->cover = [cover, light](Vec2 at) { return cover(ModulesOf(at)) ? light : -1.0; };
 }
 
-/// The share of the border (the square without its content) that is covered.
+/// Covered share of the border (the square without its content).
 double BorderShare(const Cover& cover) {
   int covered = 0, all = 0;
   const auto central = [](int at) { return at >= 10 * 4 && at < 30 * 4; };
@@ -33,7 +33,7 @@ double BorderShare(const Cover& cover) {
   return static_cast<double>(covered) / all;
 }
 
-/// How far a point is inside the square's side that is nearest.
+/// Distance of a point inside the square from the nearest side.
 double Inwards(double at) { return std::min(at, sg::kEdge - at); }
 
 bool FourCorners(Vec2 p) { return Inwards(p.x) < 11 && Inwards(p.y) < 11; }
@@ -88,7 +88,7 @@ TEST(SgOcclusion, FindsBordersThatAreAThirdToAHalfCoveredByTheirKeypoints) {
   }
 }
 
-/// Hands that leave little more than the cells to be observed.
+/// Hands that leave little more than the cells visible.
 constexpr CoveredBorder kHiddenBorders[] = {
     {"a cross is seen",
      [](Vec2 p) {
@@ -189,8 +189,7 @@ TEST(SgOcclusion, ReadsTheNumberWithAFifthOfTheContentCovered) {
         const auto found = Track(
             tracker.get(),
             RenderMarkers(camera, {marker}, {.blur_px = 0.5, .noise_codes = 1.0, .seed = seed++}));
-        // What is as black or as white as the print may hide the number, but not turn it into
-        // another.
+        // An ink-black or paper-white cover may hide the number, but must not change it.
         const bool like_marker = light < 0.1 || light > 0.7;
         EXPECT_LE(found.size(), 1U);
         if (!like_marker) {
@@ -265,7 +264,7 @@ TEST(SgOcclusion, MeasuresAPrintWithACoveredCornerUnderAGradient) {
     RenderedMarker marker = SgMarkerAt(camera, 801, {161, 118}, 110, 20, 30.0 * seed, 15);
     Lay([](Vec2 p) { return p.x + p.y < 26; }, &marker);
     RenderingOptions options{.blur_px = 0.5, .noise_codes = 1.0, .seed = seed};
-    // Ten to one across the print, without clipping.
+    // A light gradient of 10:1 across the marker, without clipping.
     options.light = [](Vec2 pixel) { return 0.2 * std::exp2(0.03 * (pixel.x - 161)); };
     const auto found = Track(tracker.get(), RenderMarkers(camera, {marker}, options));
     ASSERT_EQ(found.size(), 1U);
@@ -285,7 +284,7 @@ TEST(SgOcclusion, FindsMarkersWithGlareOnAFifth) {
     SCOPED_TRACE(testing::Message() << "spot at " << spot.x << ", " << spot.y);
     const RenderedMarker marker = SgMarkerAt(camera, 3110, {161, 118}, 110, 20, 30.0 * seed, 10);
     RenderingOptions options{.blur_px = 0.5, .noise_codes = 1.0, .seed = seed++};
-    // Drowned within 28 px of the spot: π 28² is a fifth of 110².
+    // Saturated within 28 px of the spot: π 28² is a fifth of 110².
     options.glare = [=](Vec2 pixel) {
       const double away = Norm(pixel - spot) / 28.0;
       return 2.0 * std::exp(-0.7 * std::pow(away, 4));
@@ -316,8 +315,8 @@ TEST(SgOcclusion, MeasuresAnOpenBorderWithGlareOnTheCells) {
   }
 }
 
-// Twelve plain cells pick one of 4,096 numbers and prove nothing beyond; on a border that is
-// plainly a marker's they are enough, where light drowns the others.
+// Twelve certain cells select one of 4,096 numbers without further proof. On a border that is
+// clearly a marker's they suffice where glare saturates the others.
 TEST(SgOcclusion, ReadsTheNumberWhereGlareLeavesHalfOfTheCells) {
   struct {
     Vec2 middle;

@@ -56,7 +56,7 @@ double CornerRms(const MarkerObservation& observation, const std::array<Vec2, 4>
 }
 
 double RotationApart_deg(const Mat3& a, const Mat3& b) {
-  // The chord keeps its precision where the cosine has none; exact for all angles to 180°.
+  // The chord is precise where the cosine is not; exact for all angles to 180°.
   double square = 0.0;
   for (int i = 0; i < 9; ++i) square += (a.m[i] - b.m[i]) * (a.m[i] - b.m[i]);
   return ToDegrees(Radians(2.0 * std::asin(std::min(1.0, std::sqrt(square / 8.0)))));

@@ -11,10 +11,10 @@
 
 namespace pleinair::tracker {
 
-/// A pinhole camera with its axis in the image's middle.
+/// A pinhole camera with its axis through the image centre.
 CameraModel SgCamera(int width = 320, int height = 240, double focal_px = 400.0);
 
-/// Marker `number`, with its edge `side_px` long were it frontal, as PoseAtPixel says.
+/// Marker `number`, whose edge would be `side_px` long without tilt (see PoseAtPixel).
 RenderedMarker SgMarkerAt(const CameraModel& camera, int number, Vec2 centre_px, double side_px,
                           double tilt_deg = 0.0, double axis_deg = 0.0, double roll_deg = 0.0);
 
@@ -24,11 +24,11 @@ struct SgTrackerOptions {
   bool consecutive_frames = false;
 };
 
-/// A tracker of S-G markers of the size that SgMarkerAt gives them.
+/// A tracker for S-G markers of the size that SgMarkerAt uses.
 std::unique_ptr<Tracker> MakeSgTracker(const CameraModel& camera,
                                        const SgTrackerOptions& options = {});
 
-/// What the tracker sees in an image; the test fails where that is an error.
+/// The tracker's observations in an image; the test fails on an error.
 std::vector<MarkerObservation> Track(Tracker* tracker, const GreyImage& image);
 
 /// RMS distance of a detection's corners from the truth, px.
@@ -37,13 +37,14 @@ double CornerRms(const MarkerObservation& observation, const std::array<Vec2, 4>
 /// Angle between two rotations.
 double RotationApart_deg(const Mat3& a, const Mat3& b);
 
-/// "[17 surf-golay at 81,70 60 %]": what a failed test shows of a list of observations.
+/// "[17 surf-golay at 81,70 60 %]": summary of observations for test messages.
 std::string Summary(const std::vector<MarkerObservation>& observations);
 
-/// Whether a cell of the code is printed white in the marker of that number.
+/// True if a cell of the code is white in the marker of that number.
 bool IsWhite(int number, int cell);
 
-/// A point of the print (half edges, y up) in modules of the black square, from its top-left.
+/// Converts a point of the marker (half edges, y up) to modules of the black square from its
+/// top-left.
 Vec2 ModulesOf(Vec2 at);
 
 }  // namespace pleinair::tracker

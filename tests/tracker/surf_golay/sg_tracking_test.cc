@@ -1,4 +1,4 @@
-// S-G markers followed over consecutive frames.
+// Tests tracking of S-G markers over consecutive frames.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ namespace {
 
 using testing::IsEmpty;
 
-/// How much of the print something lies on.
+/// Covered part of the marker.
 enum class Covered { kNothing, kLeftSide, kAll };
 
 GreyImage Frame(const CameraModel& camera, int number, Vec2 centre_px, int frame,
@@ -35,7 +35,7 @@ std::array<Vec2, 4> Truth(const CameraModel& camera, Vec2 centre_px, int frame) 
 
 class SgTracking : public testing::Test {
  protected:
-  /// Shows the tracker a frame and expects marker 17, with its corners where they are.
+  /// Passes a frame to the tracker and expects marker 17 with its true corners.
   void ExpectMarker(const GreyImage& image, Vec2 centre_px, int frame,
                     std::optional<DetectionPath> path, double corner_px = 0.1) {
     SCOPED_TRACE(testing::Message() << "frame " << frame);
@@ -79,7 +79,7 @@ TEST_F(SgTracking, SaysWhichMarkerIsLostAndSinceWhenUntilItIsBack) {
   for (int since = 1; since <= 4; ++since, ++frame) {
     ExpectLost(Frame(camera_, 17, {120, 115}, frame, Covered::kAll), since);
   }
-  // Where it is not looked for: as a quadrilateral.
+  // Outside the predicted region: by its quadrilateral.
   ExpectMarker(Frame(camera_, 17, {195, 120}, frame), {195, 120}, frame, DetectionPath::kFast);
   ++frame;
   ExpectMarker(Frame(camera_, 17, {195, 120}, frame), {195, 120}, frame, DetectionPath::kTracked);
@@ -99,7 +99,7 @@ TEST_F(SgTracking, HoldsAMarkerWhileSomethingMovesOverIt) {
     SCOPED_TRACE(testing::Message() << "frame " << frame);
     const Vec2 centre{150 + 1.5 * frame, 118};
     RenderedMarker marker = SgMarkerAt(camera_, 17, centre, 100, 25, 40, 10);
-    // A bar a third as wide as the marker goes across it.
+    // A bar a third as wide as the marker crosses it.
     marker.cover = [=](Vec2 at) {
       return std::fabs(at.x + 1.6 - 0.24 * frame) < 0.33 ? 0.30 : -1.0;
     };
@@ -113,7 +113,7 @@ TEST_F(SgTracking, HoldsAMarkerWhileSomethingMovesOverIt) {
 }
 
 TEST_F(SgTracking, SeesAtOnceThatAnotherNumberHangsInTheSamePlace) {
-  // 16, 18 and 3000 differ from 17 by eight cells and more.
+  // 16, 18 and 3000 differ from 17 in at least eight cells.
   int frame = 0;
   for (const int number : {17, 18, 3000, 16, 17}) {
     for (int i = 0; i < 3; ++i, ++frame) {
@@ -173,7 +173,7 @@ TEST(SgTrackingAgain, FindsALargeMarkerAtOnceWhereItStaysWhenFollowed) {
 }
 
 TEST_F(SgTracking, NeverMistakesAMarkerForItsNeighbour) {
-  // Two markers side by side; they change places while both are covered.
+  // Two markers side by side swap places while both are covered.
   for (int frame = 0; frame < 12; ++frame) {
     SCOPED_TRACE(testing::Message() << "frame " << frame);
     const bool changed = frame > 6, covered = frame == 5 || frame == 6;

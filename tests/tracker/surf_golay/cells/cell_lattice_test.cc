@@ -1,4 +1,4 @@
-// Cells found by the corners between them, and the corners.
+// Tests the detection of cells by the corners between them, and of the corners.
 #include "tracker/surf_golay/cells/cell_lattice.h"
 
 #include <gtest/gtest.h>
@@ -12,15 +12,15 @@
 namespace pleinair::tracker {
 namespace {
 
-/// A dark parallelogram on a light ground, blurred as by a lens: its corner at `corner`, its sides
-/// along `a` and `b` (unit vectors).
+/// A dark parallelogram on a light background with lens blur. Its corner is at `corner`, its sides
+/// are along `a` and `b` (unit vectors).
 GreyImage Wedge(Vec2 corner, Vec2 a, Vec2 b) {
   GreyImage image(64, 64);
   const double cross = a.x * b.y - a.y * b.x;
   for (int y = 0; y < 64; ++y) {
     for (int x = 0; x < 64; ++x) {
       const Vec2 to = Vec2{static_cast<double>(x), static_cast<double>(y)} - corner;
-      // Distances from the two sides, inside positive.
+      // Distances from the two sides, positive inside.
       const double from_a = (a.x * to.y - a.y * to.x) * (cross > 0 ? 1 : -1);
       const double from_b = (to.x * b.y - to.y * b.x) * (cross > 0 ? 1 : -1);
       const auto inside = [](double distance) { return 0.5 * (1 + std::erf(distance / 0.9)); };
@@ -70,8 +70,8 @@ TEST(CornerPoints, AreNotFoundOnEdgesNorWhereNothingIs) {
   }
 }
 
-/// The farthest that a corner of the content is from the nearest true one, in cells: a lattice does
-/// not know which way round it lies.
+/// Maximum distance of a content corner from the nearest true one, in cells. A lattice does not
+/// determine its rotation by quarter turns.
 double CellsApart(const CameraModel& camera, const Mat3& modules_from_undistorted,
                   const RenderedMarker& marker) {
   const auto square = TrueCorners(camera, marker);
@@ -109,7 +109,7 @@ TEST(CellLattice, FindsTheCellsOfAMarkerWhoseBorderIsCoveredWholly) {
       std::vector<LatticeGuess> guesses;
       lattice.Find(View(image), 1.0, &guesses);
       ++all;
-      // A row of cells that shows no corner may be missing on either side.
+      // A row of cells without visible corners may be missing on either side.
       for (const LatticeGuess& guess : guesses) {
         bool here = false;
         for (int shift = 0; shift < 9; ++shift) {

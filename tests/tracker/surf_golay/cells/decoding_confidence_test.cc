@@ -1,4 +1,4 @@
-// Whether what the cells look like proves a number.
+// Tests whether the observed cells prove a number.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -25,7 +25,7 @@ TEST(DecodingConfidence, ProveANumberUnderOneCoverButNotUnderScatteredErrors) {
   EXPECT_NEAR(EvidenceBits(plain, kNumber), 24.0, 0.3);
   EXPECT_FALSE(EvidenceUnderCover(plain).Bits(kNumber));
 
-  // A bar that looks like ink over the two uppermost rows.
+  // An ink-colored bar over the two uppermost rows.
   CellLikelihoods barred = plain;
   int hidden = 0;
   for (int k = 0; k < sg::kCodeCells; ++k) {
@@ -36,11 +36,11 @@ TEST(DecodingConfidence, ProveANumberUnderOneCoverButNotUnderScatteredErrors) {
   ASSERT_GE(hidden, 3);
   const auto under_cover = EvidenceUnderCover(barred).Bits(kNumber);
   ASSERT_TRUE(under_cover);
-  // The first wrong cell at its full price (5 nats are 7.2 bits), one bit for each other.
+  // The first wrong cell at full cost (5 nats are 7.2 bits), one bit for each further cell.
   EXPECT_NEAR(*under_cover, 24.0 - hidden + 1.0 - 7.2 - (hidden - 1), 0.3);
   EXPECT_LT(EvidenceBits(barred, kNumber), *under_cover - 4.0);
 
-  // The same and a white cell too much, or wrong cells of which each is alone.
+  // The same with one more white cell, or with isolated wrong cells.
   CellLikelihoods both = barred;
   for (int k = 23; k > 12; --k) {
     if (white(k)) continue;
@@ -57,8 +57,9 @@ TEST(DecodingConfidence, ProveANumberUnderOneCoverButNotUnderScatteredErrors) {
   EXPECT_FALSE(EvidenceUnderCover(apart).Bits(kNumber));
 }
 
-/// Cells of a print, `likelihood` nats each, on which something lies that looks like ink (or
-/// paper): wholly where `hides` is 1, and half of a cell tells nothing unless it looks alike.
+/// Cells of a marker, `likelihood` nats each, under an ink-colored or paper-colored cover. It hides
+/// a cell completely where `hides` is 1. A half-covered cell is undecided unless cover and cell
+/// have the same color.
 CellLikelihoods CellsUnder(int number, const std::function<double(int)>& hides, bool paper,
                            float likelihood = 6.0F) {
   CellLikelihoods cells;
@@ -77,8 +78,8 @@ CellLikelihoods CellsUnder(int number, const std::function<double(int)>& hides, 
 }
 
 TEST(DecodingConfidence, LeaveOpenWhichOfTwoNumbersLiesUnderACoverThatBothExplain) {
-  // Ink over the two columns to the left and half of the third. Of 361 five white cells are under
-  // it; 1609 has only three of its own where it is black, but they lie round a corner.
+  // Ink over the two left columns and half of the third. It covers five white cells of 361. For
+  // 1609 only three of its white cells would be under it, but they lie around a corner.
   const CellLikelihoods cells = CellsUnder(
       361,
       [](int k) {
@@ -88,7 +89,7 @@ TEST(DecodingConfidence, LeaveOpenWhichOfTwoNumbersLiesUnderACoverThatBothExplai
       false);
   SoftGolayDecoder in_use;
   ASSERT_TRUE(in_use.SetNumbersInUse(std::vector<int>{361, 1609, 1514}));
-  // Taken cell by cell the wrong one is e to the 12th times likelier.
+  // Cell by cell, the wrong number is e^12 times more likely.
   EXPECT_EQ(in_use.Decode(cells).number, 1609);
   EXPECT_GT(in_use.Decode(cells).margin, 16.0F);
   const auto read = ReadUnderCover(cells, in_use, SoftGolayDecoder());
@@ -107,7 +108,7 @@ TEST(DecodingConfidence, GiveUnderBarsAndBlobsTheNumberThatIsThere) {
   };
   int right = 0, wrong = 0, likeliest = 0, drawn = 0;
   while (drawn < 2000) {
-    // As bars and blobs go over the cells, five to twelve of them hidden.
+    // Bars and blobs that hide five to twelve cells.
     const double angle = draw(0.0, std::numbers::pi), x = draw(-2.0, 2.0), y = draw(-2.0, 2.0);
     const bool bar = random() % 2 == 0, paper = random() % 2 == 0;
     const double half = bar ? draw(0.6, 1.6) : draw(1.2, 2.4);
@@ -134,7 +135,7 @@ TEST(DecodingConfidence, GiveUnderBarsAndBlobsTheNumberThatIsThere) {
   RecordProperty("right", right);
   RecordProperty("wrong", wrong);
   RecordProperty("likeliest_cell_by_cell", likeliest);
-  // 2^-8 of what is read may be wrong.
+  // At most 2^-8 of the accepted results may be wrong.
   EXPECT_LE(wrong, right / 256);
   EXPECT_GT(right, drawn / 2);
 }
