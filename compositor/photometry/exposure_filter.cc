@@ -11,12 +11,13 @@
 namespace pleinair::compositor {
 namespace {
 
-// Long enough to still a flickering estimate, short enough to follow a camera's automatic exposure.
+// Long enough to smooth a flickering estimate, short enough to follow a camera's automatic
+// exposure.
 constexpr std::size_t kExposureWindow = 15;
 constexpr std::size_t kChangeWindow = 5;
 
-// Standard deviation over the median deviation, and a median's standard error over a mean's: both
-// of a normal distribution.
+// For a normal distribution: standard deviation over median absolute deviation, and standard error
+// of the median over that of the mean.
 constexpr double kSigmaOverMad = 1.4826, kMedianError = 1.2533;
 
 }  // namespace

@@ -7,27 +7,27 @@
 
 namespace pleinair::compositor {
 
-/// The camera's exposure scale (display-linear value per cd/m², per channel) from what the marker
-/// told in one frame after the other, and how much it changed meanwhile.
+/// Filters the camera's exposure scale (display-linear value per cd/m², per channel) over the
+/// frames' marker estimates. It also reports how much the scale changed meanwhile.
 class ExposureFilter {
  public:
-  /// A frame's estimate with its relative error, one standard deviation.
+  /// Adds a frame's estimate with its relative error, one standard deviation.
   void Add(const LinearRgb& exposure_scale, const LinearRgb& error);
 
   bool empty() const { return recent_.empty(); }
 
-  /// The median of the last fifteen readings, or of all while there are fewer, each channel by
-  /// itself. At least one estimate.
+  /// Median of the last fifteen estimates, or of all while there are fewer, per channel. Needs at
+  /// least one estimate.
   LinearRgb ExposureScale() const;
 
-  /// Relative standard deviation of ExposureScale(), each channel: what readings scatter from frame
-  /// to frame grows less in a median of many; a frame's own error does not, since the next shows
-  /// the same print. At least one estimate.
+  /// Relative standard deviation of ExposureScale(), per channel. A median of many estimates
+  /// reduces the scatter between frames. It does not reduce a frame's own error, because the next
+  /// frame shows the same marker. Needs at least one estimate.
   LinearRgb Error() const;
 
-  /// The brightest exposure scale over the darkest, of the channel that changed most; 1 until there
-  /// are more than five readings. Each is the median of five in a row: two bad ones among them, of
-  /// a hand or a highlight, are not taken for a change.
+  /// Ratio of the maximum to the minimum exposure scale, for the channel that changed most. It is 1
+  /// up to five estimates. Each value is a median of five consecutive estimates. Two outliers among
+  /// them, such as a hand or a highlight, are therefore not taken for a change.
   double Change() const;
 
  private:
@@ -35,12 +35,12 @@ class ExposureFilter {
     LinearRgb exposure_scale, error;
   };
 
-  /// Of the last `count` readings, or of all where there are fewer, each channel by itself.
+  /// Median of the last `count` estimates, or of all where there are fewer, per channel.
   template <typename Value>
   LinearRgb MedianOfLast(std::size_t count, const Value& value) const;
 
   std::deque<Estimate> recent_;
-  LinearRgb min_, max_;  // Of the medians of five.
+  LinearRgb min_, max_;  // Over the medians of five.
 };
 
 }  // namespace pleinair::compositor

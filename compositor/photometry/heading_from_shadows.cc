@@ -11,25 +11,25 @@ namespace pleinair::compositor {
 namespace {
 
 constexpr double kCoarseStepDeg = 0.75, kFineStepDeg = 0.125, kFineReach_deg = 1.5;
-constexpr int kGroups = 8;  // Left out one after the other.
+constexpr int kGroups = 8;  // Jackknife groups.
 constexpr int kMinSurfaceSamples = 12;
-constexpr double kGrazing = 0.1;  // Cosine below which a surface hardly sees the sun.
-// Spots whose brightness departs further from their cell's median are something else's.
+constexpr double kGrazing = 0.1;  // Cosine below which a surface receives hardly any sun.
+// A larger deviation of the brightness from the cell's median has another cause.
 constexpr double kOutlier = 1.5;
-// What a heading must reach to be believed: standard errors of the contrast, and its own.
+// Acceptance of a heading: contrast in standard errors, and maximum standard error of the heading.
 constexpr double kSignificance = 4.0;
 constexpr double kMaxUncertainty_deg = 1.0;
 constexpr double kMinContrast = 0.08;
 constexpr int kMinCells = 4;
 
-/// The surface samples of one cell, as indices into the samples, with their brightness about its
-/// mean.
+/// Surface samples of one cell, as indices into the samples, with their brightness relative to the
+/// cell's median.
 struct Cell {
   std::vector<std::uint32_t> surface_samples;
   std::vector<double> brightness;
 };
 
-/// What a heading explains: sums over the cells of covariance and variance of sunlit and bright.
+/// Regression of brightness on sun visibility: sums of covariance and variance over the cells.
 struct Fit {
   double covariance = 0.0, variance = 0.0;
   int cells = 0;
@@ -76,7 +76,7 @@ class Search {
   Search(const PhantomRays& phantoms, const SurfaceSamples& samples, Vec3 up, Vec3 to_sun)
       : phantoms_(phantoms), samples_(samples), up_(up), to_sun_(to_sun) {}
 
-  /// By heading and group of cells.
+  /// Per heading and group of cells.
   using Fits = std::vector<std::array<Fit, kGroups>>;
 
   Fits FitAll(const std::vector<Cell>& cells, const std::vector<double>& headings_deg) const {
@@ -96,7 +96,7 @@ class Search {
     return fits;
   }
 
-  /// Cells that an edge crosses at some heading.
+  /// Cells that contain a shadow boundary at some heading.
   std::vector<Cell> Crossed(std::vector<Cell> cells,
                             const std::vector<double>& headings_deg) const {
     std::vector<std::uint8_t> crossed(cells.size());
@@ -126,7 +126,7 @@ class Search {
     Fit fit;
     fit.variance = lit - lit * lit / count;
     fit.covariance = product - bright * lit / count;
-    fit.cells = fit.variance > 1.5 ? 1 : 0;  // Two surface samples on either side at the least.
+    fit.cells = fit.variance > 1.5 ? 1 : 0;  // At least two surface samples on either side.
     return fit;
   }
 
@@ -148,8 +148,8 @@ Fit Total(const std::array<Fit, kGroups>& fits) {
   return total;
 }
 
-/// Where the brightness is explained best, with one group left out (−1: none); a parabola through
-/// the best heading and its neighbours.
+/// Heading that explains the brightness best, without one group (−1: all groups). A parabola
+/// through the best heading and its neighbours refines it.
 double Best(const Search::Fits& fits, const std::vector<double>& headings, int left_out,
             std::size_t* index) {
   std::vector<double> explained;
@@ -194,7 +194,7 @@ std::optional<HeadingEstimate> EstimateHeading(const PhantomRays& phantoms,
   const double best = Best(fits, fine, -1, &at);
   const Fit whole = Total(fits[at]);
 
-  // Jackknife (Efron 1982): the spread of the answers when each group is missing.
+  // Jackknife (Efron 1982): spread of the results without each group.
   std::array<double, kGroups> offsets{}, contrasts{};
   double offset_sum = 0.0, contrast_sum = 0.0;
   for (int g = 0; g < kGroups; ++g) {

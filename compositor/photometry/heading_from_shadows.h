@@ -10,24 +10,25 @@
 
 namespace pleinair::compositor {
 
-/// How far the stated heading is off, as the phantoms' own shadows say.
+/// Error of the described heading, estimated from the shadows that phantoms cast on phantoms.
 struct HeadingEstimate {
-  Radians offset;         ///< To add to the stated heading.
-  Radians uncertainty;    ///< One standard deviation, from leaving out an eighth of the places.
-  double contrast = 0.0;  ///< Mean step of the logarithm of light across the shadows' edges.
-  int cells = 0;          ///< Places with an edge at this heading.
+  Radians offset;         ///< To be added to the described heading.
+  Radians uncertainty;    ///< One standard deviation, by a jackknife over eight groups of cells.
+  double contrast = 0.0;  ///< Mean step of the logarithm of light across the shadow boundaries.
+  int cells = 0;          ///< Cells that contain a shadow boundary at this heading.
 };
 
-/// Turns the sun about the vertical until the shadows that phantoms cast on phantoms lie where the
-/// pictures are dark: the heading at which sunlit or not explains most of the brightness within
-/// small cells of one material. Nothing where no heading explains it: no sun, or no edge in view.
+/// Estimates the heading from the shadows that phantoms cast on phantoms. The search rotates the
+/// sun about the vertical. The best heading's sun visibility explains most of the brightness within
+/// small cells of one material. Returns nothing where no heading explains it: no sun, or no shadow
+/// boundary in view.
 std::optional<HeadingEstimate> EstimateHeading(const PhantomRays& phantoms,
                                                const SurfaceSamples& samples, Vec3 up, Vec3 to_sun);
 
-/// A direction turned about an axis, counter-clockwise seen from the axis' tip.
+/// Rotates a direction about an axis, counter-clockwise seen from the tip of the axis.
 Vec3 Turned(Vec3 direction, Vec3 unit_axis, Radians angle);
 
-/// The farthest that a stated heading is believed to be off.
+/// Maximum accepted error of a described heading.
 inline constexpr double kMaxHeadingError_deg = 10.0;
 
 }  // namespace pleinair::compositor

@@ -19,26 +19,28 @@
 namespace pleinair::compositor {
 namespace {
 
-// Logarithmic, between planes of one material: what an overcast sky may leave unexplained.
+// Maximum logarithmic brightness difference between planes of one material that an overcast sky
+// leaves unexplained.
 constexpr double kMaxPlaneContrast = 0.6;
-// The same, of planes that an overcast sky explains: patterns, bumps and stated places of phantoms.
+// The same for planes that an overcast sky explains: patterns, bumps and position errors of
+// phantoms.
 constexpr double kPlaneContrastUnderCloud = 0.3;
-// Planes of several materials, compared by their stated colors: of so many, facing so many ways.
-// Logarithmic, root mean square: at least so much must be unexplained under each sun, and so many
-// times what is under clouds. Rough colors add to both alike.
+// Comparison of planes of several materials by their described colors. Minimum number of surfaces
+// and of orientations. Then the minimum logarithmic root mean square under each sun, and its
+// minimum ratio to that under clouds. Rough colors add to both alike.
 constexpr int kMinSurfaces = 4, kMinDirections = 3;
 constexpr double kMinContrastAmongPlanes = 0.2, kTimesWorse = 2.0;
-// Frames in which the print must be divided by a shadow, where so many were looked at.
+// Minimum number of frames with a divided marker, if so many were used.
 constexpr int kMinDividedFrames = 2;
-// Skies that a sun may have beside it, of the words': as they say, and in haze.
+// Sky radiance scales beside a sun, relative to the scene description: as described, and in haze.
 constexpr std::array kSkiesWithSun{1.0, 2.0, 4.0};
 
-// How much stronger than the words' sky that is under which the shade of trees is looked for first,
-// before its strength is known. A guess: words miss haze more often than anything else, shallower
-// shade is found under a stronger sky only, and deeper shade under either.
+// Sky radiance scale of the first search for tree shade, before the scale is known. A guess:
+// descriptions omit haze more often than anything else. Shallower shade is found only under a
+// stronger sky, deeper shade under either.
 constexpr LinearRgb kHazierSky{2.0, 2.0, 2.0};
 
-/// How planes agree with the words' sun beside each of kSkiesWithSun.
+/// Tests the planes under the described sun beside each of kSkiesWithSun.
 template <typename Contrast>
 std::vector<OvercastTest> SunlitContrasts(const Contrast& contrast_under,
                                           const sky::SkyModel& day) {
@@ -50,8 +52,8 @@ std::vector<OvercastTest> SunlitContrasts(const Contrast& contrast_under,
   return contrasts;
 }
 
-/// Whether planes agree with an overcast sky and with none that has a sun: those of one material
-/// by themselves, or those of several materials by their stated colors.
+/// True if planes agree with an overcast sky and with no sky that has a sun. Compares planes of one
+/// material, or planes of several materials by their described colors.
 bool IsLitByCloudsAlone(const OvercastTest& clouds, const std::vector<OvercastTest>& sunlit) {
   const bool within = clouds.within < kPlaneContrastUnderCloud &&
                       std::all_of(sunlit.begin(), sunlit.end(),
@@ -92,7 +94,7 @@ void LightEstimator::Add(ImageView<const std::uint8_t> rgb,
   if (const auto estimate = meter_.Measure(rgb, camera_, camera_from_marker)) {
     exposure_scale_ = estimate->exposure_scale;
     dappled_ += estimate->dappled ? 1 : 0;
-    // Leaves make two levels now and then, but neither is the open sun.
+    // Leaves sometimes make two levels, but neither is direct sunlight.
     const auto shadow = meter_.FindShadow(rgb, camera_, camera_from_marker);
     if (shadow && !estimate->dappled) marker_shadow_edges_.push_back(*shadow);
   }
@@ -110,7 +112,7 @@ void LightEstimator::UseDescribedLight(LightEstimate* found) const {
   const auto skies = DescribedSky(scene_);
   const auto day = skies->ForSun(sun_.ToSun(), sun_.distance_au);
   const double ratio = SunToSky(*day);
-  // Without a sun there is no shade to be found.
+  // Without a sun there is no shade.
   if (ratio <= 0.0 || overrides_.sun_to_sky.value_or(ratio) <= 0.0) return;
   const double sky_radiance_scale = ratio / overrides_.sun_to_sky.value_or(ratio);
   const UnmodelledShadows unmodelled = FindUnmodelledShadows(
@@ -121,7 +123,7 @@ void LightEstimator::UseDescribedLight(LightEstimate* found) const {
   found->measured.shaded = unmodelled.shaded;
 }
 
-/// Where leaves and the like shade the ground, and whether they shade the print.
+/// Stores where unmodelled objects shade the ground, and corrects for those that shade the marker.
 void LightEstimator::UseUnmodelledShadows(UnmodelledShadows unmodelled,
                                           LightEstimate* found) const {
   found->skies.sun_transmittance =
@@ -162,7 +164,7 @@ SunSkyRatio LightEstimator::EstimateHeadingAndRatio(LightFilter* light_filter,
   if (estimate.sun == SunSkyRatio::Sun::kShines) {
     *light_filter = with_reading;
   } else {
-    // Without a sun it was not shadows that the heading was read from.
+    // Without a sun the heading was not estimated from shadows.
     UseHeading(*light_filter, found);
   }
   found->measured.evidence.edges = estimate.edges;
@@ -214,20 +216,20 @@ LightEstimate LightEstimator::Estimate(LightFilter* light_filter) const {
   const auto contrast_under_cloud = [&] {
     return plane_contrast(*overcast->ForSun(sun_.ToSun(), sun_.distance_au));
   };
-  // Soft shade is wide where it is looked for as shallow as haze makes it, too.
+  // Soft shade is also tested as wide at the shallower depth that haze gives it.
   const bool edges_hidden =
       may_shine && unmodelled.HidesEdges() &&
       (unmodelled.CastBySun() || unmodelled.IsWide() || shade_under(kHazierSky).IsWide());
   if (estimate.sun == Sun::kHidden && !edges_hidden) {
-    // Who gives the ratio says that the sun shines; where it does is not seen, nor then its shade.
+    // A given ratio implies that the sun shines. The frames do not show where, nor its shade.
     if (overridden) return found;
     light.sun_doubtful =
         unmodelled.CastBySun() || contrast_under_cloud().within > kMaxPlaneContrast;
-    // Where the sun stands is doubtful, too: what lies in its shade would be a guess.
+    // The sun's position is doubtful, too, and so would be any shade derived from it.
     if (light.sun_doubtful) return settle_as_before();
     return settle_overcast();
   }
-  // Too few edges to tell, behind a house, say: planes that are lit as no sun would tell as well.
+  // Too few edges, behind a house for example. The planes' light may still exclude a sun.
   if (!overridden && may_shine && estimate.sun == Sun::kUnknown && !unmodelled.CastBySun() &&
       IsLitByCloudsAlone(contrast_under_cloud(), SunlitContrasts(plane_contrast, *day_))) {
     light.evidence.edges_agreeing = 0;
@@ -243,8 +245,8 @@ LightEstimate LightEstimator::Estimate(LightFilter* light_filter) const {
     light.sun_source = MeasuredLight::Source::kMeasured;
     SunSkyRatio edges = estimate;
     if (unmodelled.HidesEdges()) {
-      // Half-light on the sunny side makes the sky look too strong, there and between the leaves:
-      // the weaker counts.
+      // Half-light on the sunny side makes the sky look too strong, there and between the leaves.
+      // The weaker estimate counts.
       const SunSkyRatio depth =
           EstimateRatioFromShade(*phantoms_, unmodelled, *day_, scene::MarkerFromWorld(marker));
       if (depth.sun == Sun::kShines && depth.sky_radiance_scale.g < estimate.sky_radiance_scale.g) {
@@ -256,7 +258,7 @@ LightEstimate LightEstimator::Estimate(LightFilter* light_filter) const {
     use_sun(edges);
     if (light.sun_source == MeasuredLight::Source::kShade) unmodelled = shade_under(scale);
   } else if (!overridden) {
-    // One material and a sharp edge: surer than the deepest of the trees' shade.
+    // One material and a sharp edge: more certain than the deepest tree shade.
     SunSkyRatio seen;
     if (IsMarkerDivided(unmodelled)) {
       seen = EstimateRatioFromMarkerShadow(*phantoms_, marker_shadow_edges_, *day_,
@@ -266,7 +268,7 @@ LightEstimate LightEstimator::Estimate(LightFilter* light_filter) const {
       light.sun_source = MeasuredLight::Source::kMarker;
     } else {
       if (!may_shine || unmodelled.sunlit == 0) return settle_as_before();
-      // Half as deep a shade as the words have it is looked for, too: haze is what they miss.
+      // Also searches for shade half as deep as described, because descriptions omit haze.
       const UnmodelledShadows probe = shade_under(kHazierSky);
       if (probe.Matters()) {
         seen = EstimateRatioFromShade(*phantoms_, probe, *day_, scene::MarkerFromWorld(marker));

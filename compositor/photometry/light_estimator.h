@@ -21,19 +21,19 @@
 
 namespace pleinair::compositor {
 
-/// What frames have told of the light.
+/// Light that was estimated from frames.
 struct LightEstimate {
   MeasuredLight measured;
-  Radians heading;  ///< Of the marker.
-  /// Null source: no frames have told yet, the scene's words hold.
+  Radians heading;  ///< Heading of the marker.
+  /// A null source means that no frame gave an estimate: the scene description applies.
   SkyState skies;
 };
 
-/// Reads heading, sun and sky from the shadows that phantoms cast in frames. All frames share one
-/// sun: that of the first's time.
+/// Estimates heading, sun and sky from the shadows that phantoms cast in frames. All frames share
+/// one sun position: that at the first frame's time.
 class LightEstimator {
  public:
-  /// `scene`: with the stated or overriding heading.
+  /// `scene` has the described or overriding heading.
   LightEstimator(std::shared_ptr<const PhantomRays> phantoms, const CameraModel& camera,
                  const scene::MarkerReflectance& marker_reflectance,
                  const scene::SceneDescription& scene, const LightOverrides& overrides,
@@ -42,19 +42,22 @@ class LightEstimator {
   void Add(ImageView<const std::uint8_t> rgb, const Transform<Camera, Marker>& camera_from_marker);
   int frames() const { return samples_.frames(); }
 
-  /// Draws the conclusions, as far as the overrides leave any. Takes a second or two. `memory`:
-  /// of earlier looks in the same scene, whose readings count as well; gets this look's.
+  /// Estimates the light, as far as the overrides leave anything to estimate. Takes one or two
+  /// seconds. `light_filter` holds the estimates of earlier passes in the same scene. They
+  /// contribute to the result, and this pass's estimates are added to them.
   LightEstimate Estimate(LightFilter* light_filter) const;
 
  private:
-  /// The heading, with what it makes of the shadows' edges.
+  /// Estimates the heading, and from the shadow edges at this heading the sun-to-sky ratio.
   SunSkyRatio EstimateHeadingAndRatio(LightFilter* light_filter, LightEstimate* found) const;
   void UseUnmodelledShadows(UnmodelledShadows unmodelled, LightEstimate* found) const;
-  /// Whether a shadow's edge divides the print, not only in a frame now and then. Under words that
-  /// have no sun the ground must show some such edge as well: a print may be wet or dirty.
+  /// Returns true if a shadow edge divides the marker in more than single frames. If the scene
+  /// description has no sun, the ground must show a shadow edge as well: a marker may be wet or
+  /// dirty.
   bool IsMarkerDivided(const UnmodelledShadows& unmodelled) const;
   void UseHeading(const LightFilter& light_filter, LightEstimate* found) const;
-  /// Where nothing is to be measured: whether anything but phantoms shades the ground all the same.
+  /// Used where nothing is to be measured: only checks whether unmodelled geometry shades the
+  /// ground.
   void UseDescribedLight(LightEstimate* found) const;
 
   std::shared_ptr<const PhantomRays> phantoms_;
@@ -63,12 +66,12 @@ class LightEstimator {
   LightOverrides overrides_;
   UtcTime time_;
   sky::SunPosition sun_;
-  std::unique_ptr<sky::SkyModel> day_;  // With a sun, whatever the scene says.
+  std::unique_ptr<sky::SkyModel> day_;  // With a sun, even if the scene description has none.
   SurfaceSamples samples_;
   MarkerLightMeter meter_;
-  int dappled_ = 0;                                    // Frames in which leaves shade the print.
-  std::vector<MarkerShadowEdge> marker_shadow_edges_;  // One a frame whose print is divided.
-  LinearRgb exposure_scale_{1.0, 1.0, 1.0};            // Of the last frame that could be metered.
+  int dappled_ = 0;                                    // Frames in which leaves shade the marker.
+  std::vector<MarkerShadowEdge> marker_shadow_edges_;  // One per frame with a divided marker.
+  LinearRgb exposure_scale_{1.0, 1.0, 1.0};  // Of the last frame with an exposure estimate.
 };
 
 }  // namespace pleinair::compositor

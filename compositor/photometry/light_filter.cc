@@ -25,7 +25,7 @@ void LightFilter::AddSun(const SkyRadianceScale& seen, UtcTime time) {
   const double weight = log_sky_.Add(Luminance(now), seen.relative_error, time);
   seen_ = Observed::kSun;
   if (weight == 1.0) {
-    sky_radiance_scale_ = seen.scale;  // Not rounded by a logarithm.
+    sky_radiance_scale_ = seen.scale;  // Exact, without the rounding of a logarithm.
     return;
   }
   const auto mixed = [&](double was, double is) { return std::exp(was + weight * (is - was)); };

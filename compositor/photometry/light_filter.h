@@ -11,37 +11,39 @@
 
 namespace pleinair::compositor {
 
-/// What looks at frames have told of the light so far. A look that measures again is smoothed by
-/// the earlier ones (RandomWalkFilter); one that sees too little leaves theirs as they were. Only
-/// what none has told yet is left to the scene's words.
+/// Filters the results of light estimation passes over time (RandomWalkFilter). A pass that
+/// measures a quantity again is combined with the earlier passes. A pass that measures too little
+/// keeps their values. Quantities that no estimate has provided come from the scene description.
 class LightFilter {
  public:
   void AddHeading(const HeadingOffset& seen, UtcTime time);
-  /// Nothing before the first reading.
+  /// Returns nothing before the first estimate.
   std::optional<HeadingOffset> Heading(UtcTime time) const;
 
-  /// The sun shines, beside a sky of this strength.
+  /// The sun shines, beside a sky of this radiance scale.
   void AddSun(const SkyRadianceScale& seen, UtcTime time);
-  /// No sun shines. The sky's strength beside it is kept for when it shines again.
+  /// No sun shines. The sky radiance scale is kept for when the sun shines again.
   void AddClouds() { seen_ = Observed::kClouds; }
-  /// Whether the newest look that told saw no sun.
+  /// True if the newest conclusive pass saw no sun.
   bool ObservedClouds() const { return seen_ == Observed::kClouds; }
-  /// Nothing before the first sun, and where the newest look that told saw none.
+  /// Returns nothing before the first sun, or if the newest conclusive pass saw none.
   std::optional<SkyRadianceScale> SkyBesideSun(UtcTime time) const;
 
-  /// Keeps what a look concluded of sun and sky.
+  /// Stores a pass's result for sun and sky.
   void Keep(const MeasuredLight& light, const SkyState& skies);
-  /// Why sun and sky are as the last look found that measured them; nothing where none did.
+  /// Restores the sources of sun and sky from the last pass that measured them. Changes nothing if
+  /// none did.
   void RestoreSources(UtcTime time, MeasuredLight* light) const;
-  /// Also the skies that were kept, with the shade of trees; nothing where none were.
+  /// Restores also the stored skies, with their unmodelled shadows. Changes nothing if none were
+  /// stored.
   void Recall(UtcTime time, MeasuredLight* light, SkyState* skies) const;
 
  private:
   enum class Observed { kNothing, kSun, kClouds };
 
-  // A marker stays where it lies, but places of phantoms that are a little wrong tell another
-  // heading at another hour. A sky changes fast: measured within 6 %, a quarter more light counts
-  // for four fifths at once.
+  // A marker does not move, but errors of the phantoms' positions change the estimated heading over
+  // the day. A sky changes fast: measured within 6 %, four fifths of an increase by a quarter are
+  // accepted at once.
   static constexpr Radians kHeadingDrift = FromDegrees(0.1);
   static constexpr double kLogSkyDrift = 0.1;
 
@@ -49,7 +51,7 @@ class LightFilter {
   RandomWalkFilter log_sky_{kLogSkyDrift};  // Luminance of the channels' logarithms.
   LinearRgb sky_radiance_scale_{1.0, 1.0, 1.0};
   Observed seen_ = Observed::kNothing;
-  std::optional<MeasuredLight> reasons_;  // Of its sun and sky alone.
+  std::optional<MeasuredLight> reasons_;  // Only its sun and sky are used.
   SkyState skies_;
 };
 

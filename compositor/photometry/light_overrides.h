@@ -5,16 +5,18 @@
 
 namespace pleinair::compositor {
 
-/// Largest plausible sun-to-sky ratio of a clear sky; high mountains have 10.
+/// Maximum plausible sun-to-sky ratio of a clear sky. High mountains have 10.
 inline constexpr double kMaxSunToSky = 20.0;
 
-/// What the user says of the light, in place of what the frames show.
+/// Values that the user provides in place of estimates.
 struct LightOverrides {
-  /// Measure nothing but the exposure scale and whether trees shade the ground: believe the scene.
+  /// Uses the scene description. Only the exposure scale and unmodelled shadows on the ground are
+  /// measured.
   bool as_described = false;
-  std::optional<double> sun_to_sky;  ///< Sun's illuminance of level ground over the sky's; 0: none.
-  std::optional<double> heading_deg;  ///< Of the marker, as in the scene.
-  /// Where light is gathered, at most (LightSolverOptions).
+  /// Sun's illuminance of level ground over the sky's; 0: no sun.
+  std::optional<double> sun_to_sky;
+  std::optional<double> heading_deg;  ///< Heading of the marker, as in the scene.
+  /// Maximum number of radiosity patches (LightSolverOptions).
   std::optional<std::size_t> max_patches;
 };
 

@@ -11,8 +11,8 @@
 
 namespace pleinair::compositor {
 
-/// Linear light of a camera's picture at a pixel position, bilinear between the four pixels around
-/// it; nothing outside the picture.
+/// Samples the linear light of a camera image, bilinear between the four pixels around `at`.
+/// Returns nothing outside the image.
 inline std::optional<std::array<double, 3>> SampleLinear(ImageView<const std::uint8_t> rgb, Vec2 at,
                                                          const CameraResponse& response) {
   const int x = static_cast<int>(std::floor(at.x));

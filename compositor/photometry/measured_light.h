@@ -6,36 +6,37 @@
 
 namespace pleinair::compositor {
 
-/// What the frames showed of sun and sky.
+/// Evidence of sun and sky in the frames.
 struct LightEvidence {
-  int frames = 0;          ///< Used for the estimate.
-  int edges = 0;           ///< Of phantoms' shadows.
-  int edges_agreeing = 0;  ///< With the sun-to-sky ratio.
+  int frames = 0;          ///< Frames used for the estimate.
+  int edges = 0;           ///< Edges of phantoms' shadows.
+  int edges_agreeing = 0;  ///< Edges that agree with the sun-to-sky ratio.
   /// SunSkyRatio::share_with_contrast.
   double edges_with_contrast = 0.0;
-  int shade_places = 0;  ///< That the depth of trees' shade was read from; of Source::kShade.
+  int shade_places = 0;  ///< Places where the depth of tree shade was measured; for Source::kShade.
 };
 
-/// The light of a recording's day: which sky, how strong beside the sun, and why we think so.
+/// Estimated light of a recording: the sky, the sun-to-sky ratio, and the source of each.
 struct MeasuredLight {
-  /// kShade: from how deep the shade of trees is, where no phantom's edge could tell.
-  /// kMarker: from a shadow's edge across its print, whatever casts it, where phantoms' could not.
+  /// kShade: from the depth of tree shade, where no phantom's shadow edge gave a ratio. kMarker:
+  /// from a shadow edge on the marker, whatever casts it, where phantoms' edges gave none.
   enum class Source { kDescription, kMeasured, kShade, kMarker, kOverride };
   Source sun_source = Source::kDescription;
   Source heading_source = Source::kDescription;
   bool sun_shines = true;
   double sun_to_sky = 0.0;         ///< Sun's illuminance of level ground over the sky's.
-  double sun_to_sky_stated = 0.0;  ///< The same as the scene's words have it.
-  /// Relative, one standard deviation; nothing where no ratio was measured.
+  double sun_to_sky_stated = 0.0;  ///< The same ratio by the scene description.
+  /// Relative, one standard deviation. Empty where no ratio was measured.
   std::optional<double> sun_to_sky_error;
-  Radians heading_offset;                ///< Added to the stated heading.
-  std::optional<Radians> heading_error;  ///< One standard deviation; nothing where not measured.
+  Radians heading_offset;                ///< Added to the described heading.
+  std::optional<Radians> heading_error;  ///< One standard deviation. Empty where not measured.
   LightEvidence evidence;
-  /// No shadow lies where phantoms would cast one, yet there are shadows: neither sun nor overcast
-  /// is concluded, nor what lies in shade.
+  /// True if no shadow lies where phantoms would cast one, yet there are shadows. Sun, overcast and
+  /// shaded places are then not estimated.
   bool sun_doubtful = false;
-  double shaded = 0.0;        ///< Share of what the phantoms leave in the sun that lies in shade.
-  double marker_shade = 1.0;  ///< Open sunlight over that on the print's brightest under leaves.
+  double shaded = 0.0;  ///< Shaded share of the area that the phantoms leave sunlit.
+  /// Direct sunlight over the brightest light on the marker under leaves.
+  double marker_shade = 1.0;
 };
 
 }  // namespace pleinair::compositor

@@ -15,14 +15,15 @@ namespace pleinair::compositor {
 namespace {
 
 constexpr std::size_t kMinSurfaceSamples = 40;
-// Where the model is asked, spread over the surface samples of a plane.
+// Points per plane at which the model is evaluated, spread over its surface samples.
 constexpr std::size_t kProbes = 12;
 constexpr std::uint32_t kPaths = 128;
 
-// Between normals that count as one direction (30°).
+// Cosine between normals that count as one direction (30°).
 constexpr double kOneDirection = 0.866;
 
-/// Root mean square about the mean of means; what is in a list counts as much as one.
+/// Root mean square of the values about the mean of the lists' means. Each list has the same
+/// weight.
 double SpreadOf(const std::map<int, std::vector<double>>& values) {
   double sum = 0.0, square = 0.0;
   for (const auto& [surface, list] : values) {
@@ -46,8 +47,9 @@ OvercastTest TestForOvercast(const PhantomRays& phantoms, const SurfaceSamples& 
     if (all[i].frames > 0) planes[PlaneOf(all[i].surface, all[i].normal)].push_back(i);
   }
   OvercastTest contrast;
-  std::map<int, std::vector<double>> off;      // By surface, of its planes: beside the model,
-  std::map<int, std::vector<double>> off_all;  // … and beside its stated color.
+  // Brightness of each surface's planes relative to the model.
+  std::map<int, std::vector<double>> off;
+  std::map<int, std::vector<double>> off_all;  // The same, also relative to the described colors.
   std::vector<Vec3> directions;
   for (const auto& [plane, surface_samples] : planes) {
     if (surface_samples.size() < kMinSurfaceSamples) continue;

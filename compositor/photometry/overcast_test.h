@@ -7,22 +7,21 @@
 
 namespace pleinair::compositor {
 
-/// How the brightness of planes, the top of a box and its side, say, agrees with the light that a
-/// day would have on them. Whatever casts shadows lights planes by how they face it, wherever its
+/// Compares the brightness of planes, such as the top and the side of a box, with the light of a
+/// modelled day. The test needs no shadow edges: planes are lit by their orientation, wherever
 /// shadows fall.
 struct OvercastTest {
-  /// How much brighter one plane of a surface is than another of the same material, beyond what
-  /// the light explains: logarithmic, of the pair that differs most; 0 where no surface shows two
-  /// planes.
+  /// Unexplained logarithmic brightness difference of two planes of one material, for the pair that
+  /// differs most. 0 where no surface shows two planes.
   double within = 0.0;
-  /// The same among all surfaces and the marker, by their stated colors: root mean square about
-  /// the mean, logarithmic, surfaces counting alike. Stated colors are rough.
+  /// The same among all surfaces and the marker, compared by their described colors. Logarithmic
+  /// root mean square about the mean, with equal weight per surface. Described colors are rough.
   double among = 0.0;
-  int surfaces = 0;    ///< That were compared, the marker among them.
-  int directions = 0;  ///< That their planes face, 30° apart at least.
+  int surfaces = 0;    ///< Compared surfaces, including the marker.
+  int directions = 0;  ///< Orientations of their planes, at least 30° apart.
 };
 
-/// Compares planes in the light of `day`, its sun as the phantoms leave it.
+/// Compares planes in the light of `day`, with the sun visibility that the phantoms leave.
 OvercastTest TestForOvercast(const PhantomRays& phantoms, const SurfaceSamples& samples,
                              const sky::SkyModel& day, const Mat3& marker_from_world);
 

@@ -7,13 +7,13 @@
 namespace pleinair::compositor {
 namespace {
 
-// Beyond so many standard deviations a measurement contradicts what was known.
+// A measurement that deviates by more standard deviations contradicts the state.
 constexpr double kContradiction = 3.0;
 
 }  // namespace
 
 double RandomWalkFilter::ErrorAt(UtcTime time) const {
-  // A recording that begins again goes back in time.
+  // A recording that starts again goes back in time.
   const auto since_ns =
       std::max<std::int64_t>(0, time.nanoseconds_since_1970() - time_.nanoseconds_since_1970());
   const double minutes = static_cast<double>(since_ns) / 60e9;
@@ -27,7 +27,7 @@ double RandomWalkFilter::Add(double value, double error, UtcTime time) {
   const double weight = replaces ? 1.0 : kept / (kept + seen);
   known_ = true;
   value_ = replaces ? value : value_ + weight * off;
-  // Of two that are weighed by their inverse variances.
+  // Variance of the mean weighted by inverse variances.
   variance_ = replaces ? seen : weight * seen;
   time_ = time;
   return weight;

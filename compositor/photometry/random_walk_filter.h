@@ -4,23 +4,24 @@
 
 namespace pleinair::compositor {
 
-/// A number that is measured again and again while it changes slowly. Measurements are combined by
-/// their uncertainties; what was known counts the less the older it is. A measurement that
-/// contradicts it far beyond both uncertainties replaces it: then the thing itself has changed.
+/// Scalar Kalman filter of a slowly changing number (random-walk model). Measurements are weighted
+/// by their inverse variances, and the weight of the state falls with its age. A measurement
+/// replaces the state if it contradicts it far beyond both uncertainties: the number itself has
+/// changed.
 class RandomWalkFilter {
  public:
-  /// `drift_per_minute`: standard deviation of what the number itself changes by within a minute.
-  /// Of changes that do not depend on each other, the variances add.
+  /// `drift_per_minute` is the standard deviation of the number's own change within a minute. The
+  /// variances of independent changes add.
   explicit RandomWalkFilter(double drift_per_minute) : drift_per_minute_(drift_per_minute) {}
 
-  /// Counts a measurement in. Gives its weight in the new value, beside what was known until now:
-  /// 1 where nothing was, or where it replaces that. `error`: one standard deviation.
+  /// Adds a measurement; `error` is one standard deviation. Returns the measurement's weight in the
+  /// new value. The weight is 1 for the first measurement, and where it replaces the state.
   double Add(double value, double error, UtcTime time);
 
   bool known() const { return known_; }
   /// 0 before the first measurement.
   double value() const { return value_; }
-  /// Of the value at a moment, one standard deviation.
+  /// Standard deviation of the value at a moment.
   double ErrorAt(UtcTime time) const;
 
  private:

@@ -9,18 +9,18 @@
 namespace pleinair::compositor {
 namespace {
 
-// Haze as thick as this veils a sun; beyond it, clouds do.
+// Range of turbidity. Beyond the maximum, clouds are added instead of haze.
 constexpr double kClearest = 1.2, kHaziest = 6.0;
 constexpr double kCloudyTurbidity = 3.2;
 constexpr double kThickestCover = 0.98;
-// How near a sky's strength beside its sun must come to what is wanted, logarithmic: each try is an
-// atmosphere of its own, and what is left the sky is scaled by.
+// Logarithmic tolerance of the sky-to-sun ratio. Each try builds an atmosphere; a scale of the sky
+// takes the remaining difference.
 constexpr double kNearEnough = 0.01;
 constexpr int kMaxTries = 12;
 constexpr double kFarOff = 5.0;
-// How far a compass and a person may be off.
+// Uncertainty of a heading from a compass and a person.
 constexpr double kHeadingDoubtDeg = 4.0;
-// Doubt of the color of a sky beside its sun, logarithmic: of the model, of the measurement.
+// Logarithmic uncertainty of the sky's color beside its sun: of the model and of the measurement.
 constexpr double kModelColorDoubt = 0.10, kMeasuredColorDoubt = 0.08;
 
 sky::SkyCondition ConditionOf(scene::Cloudiness cloudiness) {
@@ -37,7 +37,7 @@ sky::SkyCondition ConditionOf(scene::Cloudiness cloudiness) {
   return sky::SkyCondition::kClear;
 }
 
-/// Doubt of the sky's strength beside the sun that words leave, logarithmic.
+/// Logarithmic uncertainty of the sky's strength beside the sun in a scene description.
 double DoubtOf(scene::Cloudiness stated) {
   switch (stated) {
     case scene::Cloudiness::kClear:
@@ -51,9 +51,9 @@ double DoubtOf(scene::Cloudiness stated) {
   return 1.2;
 }
 
-/// Where between `low` and `high` a rising function is zero, about; the nearer end where it is
-/// nowhere. False position as the Illinois algorithm has it: Dowell & Jarratt 1971, "A modified
-/// regula falsi method for computing the root of an equation", BIT 11, p. 168.
+/// Finds the zero of a rising function between `low` and `high`; the nearer end if there is none.
+/// Uses false position, Illinois algorithm: Dowell & Jarratt 1971, "A modified regula falsi method
+/// for computing the root of an equation", BIT 11, p. 168.
 template <typename Function>
 double ZeroBetween(double low, double high, const Function& function) {
   double at_low = function(low), at_high = function(high);
@@ -68,7 +68,7 @@ double ZeroBetween(double low, double high, const Function& function) {
     const int side = value < 0.0 ? -1 : 1;
     (side < 0 ? low : high) = tried;
     (side < 0 ? at_low : at_high) = value;
-    // An end that stays holds the line up.
+    // An end that stays slows the convergence.
     if (side == last_side) (side < 0 ? at_high : at_low) *= 0.5;
     last_side = side;
   }
@@ -109,7 +109,7 @@ double SunToSky(const sky::SkyModel& day) {
 SkyFit SkyWithShare(LinearRgb sky_over_sun, Direction<World> to_sun, double sun_distance_au) {
   const double wanted = Luminance(sky_over_sun);
   if (!(wanted > 0.0) || !std::isfinite(wanted)) return {OvercastSky()};  // There is no sun.
-  /// By how much too strong a sky is beside its sun, logarithmic.
+  /// Logarithmic excess of a sky's strength beside its sun.
   const auto excess = [&](const std::shared_ptr<const sky::SkySource>& source) {
     const auto day = source->ForSun(to_sun, sun_distance_au);
     const double share =
@@ -149,7 +149,7 @@ std::optional<SkyFit> OverriddenSky(const scene::SceneDescription& scene,
 SkyRadianceScale WeightedScale(const SunSkyRatio& estimate, scene::Cloudiness stated) {
   const LinearRgb& s = estimate.sky_radiance_scale;
   const double log_r = std::log(s.r), log_g = std::log(s.g), log_b = std::log(s.b);
-  // Rec.709's weights, as everywhere for luminance.
+  // Rec.709 weights, as for all luminance.
   const double log_mean = Luminance({log_r, log_g, log_b});
   const auto share = [](double prior, double measured) {
     return prior * prior / (prior * prior + measured * measured);

@@ -14,48 +14,48 @@
 
 namespace pleinair::compositor {
 
-/// The skies of a day whose light was measured.
+/// Sky model fit for a day with measured light.
 struct SkyFit {
   std::shared_ptr<const sky::SkySource> skies;
-  LinearRgb sky_radiance_scale{1.0, 1.0, 1.0};  ///< To multiply the sky with, the sun stays.
+  LinearRgb sky_radiance_scale{1.0, 1.0, 1.0};  ///< Multiplies the sky; the sun stays.
 };
 
-/// The skies that the scene's words stand for.
+/// Skies of the scene description.
 std::shared_ptr<const sky::SkySource> DescribedSky(const scene::SceneDescription& scene);
-/// The same with a sun, whatever the words: what a shadow's edge is measured against.
+/// The same with a sun, whatever the description. Shadow edges are measured against it.
 std::shared_ptr<const sky::SkySource> SunlitSky(const scene::SceneDescription& scene);
 std::shared_ptr<const sky::SkySource> OvercastSky();
 
-/// The sky whose light on level ground, a channel, is `sky_over_sun` times the sun's light on a
-/// surface facing it: haze and then clouds are added until the luminances agree, so that the shape
-/// of the sky follows; what a channel still lacks goes into `sky_radiance_scale`.
+/// Fits a sky to its light on level ground: `sky_over_sun` times the sun's light on a surface
+/// facing it, per channel. Haze and then clouds are added until the luminances agree, so that the
+/// sky's shape follows. `sky_radiance_scale` takes the remaining difference per channel.
 SkyFit SkyWithShare(LinearRgb sky_over_sun, Direction<World> to_sun, double sun_distance_au);
-/// The same, of a day's model with the sky so much stronger beside the sun.
+/// Fits a sky to that of the model `day`, times `scale` beside the sun.
 SkyFit SkyScaledBesideSun(const sky::SkyModel& day, LinearRgb scale, double sun_distance_au);
 
-/// The sky that the user gives for a sun; nothing where he says nothing of it.
+/// Sky by the user's overrides. Returns nothing where they have none.
 std::optional<SkyFit> OverriddenSky(const scene::SceneDescription& scene,
                                     const LightOverrides& overrides, const sky::SunPosition& sun);
 
-/// How much stronger the sky is beside the sun than SunlitSky() has it.
+/// Radiance of the sky beside the sun, relative to SunlitSky().
 struct SkyRadianceScale {
   LinearRgb scale{1.0, 1.0, 1.0};
   double relative_error = 0.0;  ///< One standard deviation.
 };
 
-/// A measured scale, weighed against how sure the scene's words are.
+/// Combines a measured scale with the description, each weighted by its certainty.
 SkyRadianceScale WeightedScale(const SunSkyRatio& estimate, scene::Cloudiness stated);
 
-/// What is to be added to a stated heading.
+/// Value to be added to a described heading.
 struct HeadingOffset {
   Radians offset;
   Radians error;  ///< One standard deviation.
 };
 
-/// A measured turn of the heading, weighed against a compass.
+/// Combines a measured heading offset with a compass's uncertainty.
 HeadingOffset WeightedHeading(const HeadingEstimate& estimate);
 
-/// Sun on level ground over sky.
+/// Illuminance of level ground by the sun over that by the sky.
 double SunToSky(const sky::SkyModel& day);
 
 }  // namespace pleinair::compositor

@@ -8,16 +8,16 @@
 
 namespace pleinair::compositor {
 
-/// Skies of a day whose light was measured or stated.
+/// Skies of a day whose light was measured or described.
 struct SkyState {
   std::shared_ptr<const sky::SkySource> source;
-  LinearRgb scale{1.0, 1.0, 1.0};  ///< To multiply the sky with; the sun stays.
-  /// Whether trees and the like may shade what the phantoms leave in the sun.
+  LinearRgb scale{1.0, 1.0, 1.0};  ///< Multiplies the sky; the sun stays.
+  /// True if unmodelled objects such as trees may shade what the phantoms leave sunlit.
   bool unmodelled_shadows = true;
-  /// How much of the sun these leave, across its rays; null: all. A light's own is null once the
-  /// sun has left the place that the map was made for.
+  /// Sun transmittance of unmodelled objects, across the sun's rays; null: all of it. A light's own
+  /// map is null once the sun has left the position that the map was made for.
   std::shared_ptr<const SunTransmittanceMap> sun_transmittance{};
-  /// To multiply the camera's exposure scale with: above 1 where leaves shade all of the print.
+  /// Multiplies the camera's exposure scale. Above 1 where leaves shade the whole marker.
   LinearRgb marker_shade{1.0, 1.0, 1.0};
 };
 

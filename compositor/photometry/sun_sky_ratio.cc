@@ -16,25 +16,24 @@ namespace pleinair::compositor {
 namespace {
 
 constexpr double kGrazing = 0.1;
-constexpr int kDiscDirections = 8;     // Round the rim of the sun's disc, besides its centre.
-constexpr double kBlurPx = 1.5;        // Spots nearer to an edge than this mix both sides.
-constexpr int kMinSurfaceSamples = 5;  // A side.
+constexpr int kDiscDirections = 8;  // On the rim of the sun's disc, besides its centre.
+constexpr double kBlurPx = 1.5;     // Surface samples nearer to an edge than this mix both sides.
+constexpr int kMinSurfaceSamples = 5;  // Per side.
 constexpr std::size_t kMaxEdges = 120;
 constexpr std::uint32_t kPaths = 384;
-// What a material's own pattern adds to the doubt of one edge, however many surface samples there
-// are.
+// Uncertainty of one edge due to a material's own pattern, for any number of surface samples.
 constexpr double kPatternNoise = 0.05;
-// Doubt about what phantoms leave out (leaves, small things) and about their colors.
+// Uncertainty due to unmodelled geometry (leaves, small objects) and due to described colors.
 constexpr double kModelNoise = 0.10;
-// Edges whose model says that they are weaker than this tell nothing.
+// Minimum predicted step of edges that are used.
 constexpr double kMinStep = 0.25;
-// A step counts from a quarter of the predicted on, against noise from three standard deviations.
+// Minimum step: a quarter of the predicted one, and 2.5 standard deviations of the noise.
 constexpr double kStepShare = 0.25, kStepSigmas = 2.5;
-// By weight, edges with a step that there must be for a sun, and that a hidden sun may leave.
+// Weighted share of edges with a step: minimum for a sun, and maximum for a hidden sun.
 constexpr double kSunShare = 0.30, kNoSunShare = 0.12;
 constexpr int kMinEdgesForSun = 3, kMinEdgesForNoSun = 6;
 constexpr double kAgreement = 0.35;
-// How much more than the others an edge may change color, logarithmic.
+// Maximum logarithmic deviation of an edge's color step from that of the others.
 constexpr double kMaxColorOffset = 0.12;
 constexpr int kGroups = 8;
 
@@ -43,7 +42,7 @@ Rgb ToArray(LinearRgb c) { return {c.r, c.g, c.b}; }
 
 enum class Side : std::uint8_t { kLit, kShaded, kNeither };
 
-/// Clear of every edge by the sun's width and the picture's blur?
+/// Classifies samples that are clear of every edge by the sun's width and the image blur.
 Side SideOf(const PhantomRays& phantoms, const SurfaceSample& sample, const TangentFrame& sun) {
   const bool lit = phantoms.IsUnoccluded(sample.point, sun.normal);
   constexpr double kRim = 0.98;
@@ -61,7 +60,7 @@ Side SideOf(const PhantomRays& phantoms, const SurfaceSample& sample, const Tang
   return lit ? Side::kLit : Side::kShaded;
 }
 
-/// Median over surface samples and the variance of that median; a channel, or (−1) the channels'
+/// Median over surface samples and the variance of that median, for a channel or (−1) the channels'
 /// mean.
 std::pair<double, double> MedianBrightness(const SurfaceSamples& samples,
                                            const std::vector<std::uint32_t>& surface_samples,
@@ -73,12 +72,13 @@ std::pair<double, double> MedianBrightness(const SurfaceSamples& samples,
   }
   const double median = Median(values);
   for (double& value : values) value = std::fabs(value - median);
-  // 1.4826: median deviation of a normal distribution; π/2: variance of a median over a mean's.
+  // For a normal distribution: 1.4826 converts a median absolute deviation to a standard deviation.
+  // π/2 is the variance of a median over that of a mean.
   const double sigma = 1.4826 * Median(values);
   return {median, 1.571 * sigma * sigma / static_cast<double>(values.size())};
 }
 
-/// The surface sample nearest to the middle of some.
+/// The surface sample nearest to the centroid of some.
 Point<Marker> Middle(const SurfaceSamples& samples,
                      const std::vector<std::uint32_t>& surface_samples) {
   Vec3 mean;
@@ -102,7 +102,7 @@ std::vector<Candidate> Candidates(const PhantomRays& phantoms, const SurfaceSamp
                                   const TangentFrame& sun) {
   const auto& all = samples.samples();
   std::vector<Side> sides(all.size(), Side::kNeither);
-  // Cells that no edge crosses need not be looked at closely.
+  // Cells without a shadow boundary need no close test.
   std::vector<std::uint8_t> seen(samples.cells());
   std::vector<std::uint8_t> sun_visible(all.size());
   ParallelFor(all.size(), 0, [&](std::size_t i) {
@@ -130,15 +130,15 @@ std::vector<Candidate> Candidates(const PhantomRays& phantoms, const SurfaceSamp
 
 double Mean(LinearRgb c) { return (c.r + c.g + c.b) / 3; }
 
-/// How far an edge's colors are from what the model says, red and blue against green.
+/// Deviation of an edge's colors from the model: red and blue relative to green.
 std::array<double, 2> ColorOff(const ShadowEdge& edge) {
   const LinearRgb predicted = edge.Predicted({1, 1, 1});
   return {edge.contrast.r - edge.contrast.g - (predicted.r - predicted.g),
           edge.contrast.b - edge.contrast.g - (predicted.b - predicted.g)};
 }
 
-/// Edges on either side of which the same material lies: a joint of mortar along an edge, say,
-/// changes the color otherwise than all the other edges do.
+/// Selects edges with the same material on both sides. A mortar joint along an edge, for example,
+/// changes the color differently from all other edges.
 std::vector<std::uint8_t> OfOneMaterial(const std::vector<ShadowEdge>& edges,
                                         const std::vector<std::uint8_t>& telling) {
   std::array<std::vector<double>, 2> off;
@@ -158,9 +158,8 @@ std::vector<std::uint8_t> OfOneMaterial(const std::vector<ShadowEdge>& edges,
   return good;
 }
 
-/// Where `sky_radiance_scale` minimises the weighted absolute difference of measured and predicted
-/// contrast over some edges, a channel; golden ratios apart on a fixed grid, so that it cannot
-/// end in a wrong valley.
+/// Finds the logarithmic sky radiance scale of one channel that minimises the cost of measured
+/// minus predicted contrast over the used edges. The fixed grid avoids local minima.
 double FitScale(const std::vector<ShadowEdge>& edges, const std::vector<std::uint8_t>& used,
                 int channel) {
   double best_log = 0.0, minimum = 1e300;
@@ -171,7 +170,7 @@ double FitScale(const std::vector<ShadowEdge>& edges, const std::vector<std::uin
       if (used[i] == 0) continue;
       const double difference = ToArray(edges[i].contrast)[channel] -
                                 ToArray(edges[i].Predicted({scale, scale, scale}))[channel];
-      // Huber's: quadratic where noise explains it, else linear.
+      // Huber cost: quadratic within the noise, linear beyond.
       const double sigma = std::hypot(edges[i].uncertainty, kModelNoise);
       const double t = std::fabs(difference) / sigma;
       cost += t < 1.0 ? 0.5 * t * t : t - 0.5;
@@ -210,7 +209,7 @@ std::vector<ShadowEdge> FindShadowEdges(const PhantomRays& phantoms, const Surfa
   const std::vector<Candidate> candidates =
       Candidates(phantoms, samples, TangentFrame(Normalized(to_sun)));
   std::vector<ShadowEdge> edges(candidates.size());
-  // By plane, since that is how ambient light is asked for.
+  // By plane, because ambient light is evaluated per plane.
   std::map<std::array<double, 3>, std::vector<std::size_t>> by_normal;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const Vec3 n = samples.samples()[candidates[i].lit.front()].normal;
@@ -254,7 +253,7 @@ std::vector<ShadowEdge> FindShadowEdges(const PhantomRays& phantoms, const Surfa
 
 SunSkyRatio EstimateSunSkyRatio(const std::vector<ShadowEdge>& edges) {
   SunSkyRatio estimate;
-  // A sky so strong that the sun counts for nothing: what is left are the corners' own shades.
+  // A sky so strong that the sun is negligible: only the corners' ambient occlusion remains.
   constexpr LinearRgb kSkyAlone{1e6, 1e6, 1e6};
   std::vector<double> without_sun(edges.size()), predicted(edges.size());
   std::vector<std::uint8_t> steps(edges.size()), telling(edges.size());
@@ -288,8 +287,8 @@ SunSkyRatio EstimateSunSkyRatio(const std::vector<ShadowEdge>& edges) {
   }
   if (estimate.share_with_contrast < kSunShare || stepping < kMinEdgesForSun) return estimate;
 
-  // Edges without a step lie in some other thing's shadow. Of the others, those count that the
-  // scale most of them agree on explains.
+  // Edges without a step lie in another object's shadow. The remaining edges count if they agree
+  // with the scale that most of them share.
   const double log_about = FitScale(edges, steps, 1);
   const double about = std::exp(log_about);
   std::vector<std::uint8_t> used(edges.size());
@@ -315,7 +314,7 @@ SunSkyRatio EstimateSunSkyRatio(const std::vector<ShadowEdge>& edges) {
   }
   double spread = 0.0;
   for (const double value : logs) spread += std::pow(value - sum / kGroups, 2);
-  // What all edges have wrong together does not show in their spread.
+  // Errors common to all edges do not show in their spread.
   constexpr double kCommonDoubt = 0.05;
   estimate.log_uncertainty =
       std::sqrt(spread * (kGroups - 1.0) / kGroups + kCommonDoubt * kCommonDoubt);

@@ -10,36 +10,36 @@
 
 namespace pleinair::compositor {
 
-/// One place where a phantom's own shadow should have an edge on one material.
+/// A place where a phantom's shadow should have an edge on one material.
 struct ShadowEdge {
-  LinearRgb contrast;        ///< Logarithm of lit over shaded, measured, a channel.
-  double uncertainty = 0.0;  ///< Of its mean over the channels, one standard deviation.
-  /// Light predicted by the model, on either side: the sky's own and what surfaces reflect of it;
-  /// what they reflect of the sun; and, lit, the sun itself.
+  LinearRgb contrast;        ///< Measured logarithm of lit over shaded light, per channel.
+  double uncertainty = 0.0;  ///< Standard deviation of its mean over the channels.
+  /// Light that the model predicts on either side. `sky_*` is the sky's light and its reflections,
+  /// `reflected_*` the sun's reflections, `sun` the direct sun on the lit side.
   LinearRgb sky_lit, sky_shaded, reflected_lit, reflected_shaded, sun;
 
-  /// Contrast where the sky is `sky_radiance_scale` times as strong beside the sun as the model has
-  /// it.
+  /// Predicted contrast if the sky is `sky_radiance_scale` times as strong beside the sun as in the
+  /// model.
   LinearRgb Predicted(LinearRgb sky_radiance_scale) const;
 };
 
-/// The edges in view, of those that have the most surface samples on either side. `daylight` is the
-/// model, `marker_from_world` with the heading already refined.
+/// Finds the shadow edges in view, at the cells with the most surface samples on either side.
+/// `daylight` is the model, `marker_from_world` has the refined heading.
 std::vector<ShadowEdge> FindShadowEdges(const PhantomRays& phantoms, const SurfaceSamples& samples,
                                         const sky::SkyModel& daylight,
                                         const Mat3& marker_from_world);
 
-/// What the edges say together.
+/// Sun-to-sky ratio estimate from all edges.
 struct SunSkyRatio {
   enum class Sun { kUnknown, kShines, kHidden };
   Sun sun = Sun::kUnknown;
-  int edges = 0;                     ///< That could tell.
-  int agreeing = 0;                  ///< That one and the same sun explains.
-  double share_with_contrast = 0.0;  ///< By weight, those against the light subtracted.
-  /// How much stronger than the model the sky is beside the sun; kShines alone.
+  int edges = 0;     ///< Edges that could show a step.
+  int agreeing = 0;  ///< Edges that one and the same sun explains.
+  /// Weighted share of edges with contrast, minus those with reversed contrast.
+  double share_with_contrast = 0.0;
+  /// Radiance of the sky beside the sun, relative to the model. For kShines only.
   LinearRgb sky_radiance_scale{1.0, 1.0, 1.0};
-  double log_uncertainty =
-      0.0;  ///< Of the logarithm of sky_radiance_scale, one standard deviation.
+  double log_uncertainty = 0.0;  ///< Standard deviation of the logarithm of sky_radiance_scale.
 };
 SunSkyRatio EstimateSunSkyRatio(const std::vector<ShadowEdge>& edges);
 

@@ -8,19 +8,19 @@
 namespace pleinair::compositor {
 namespace {
 
-// A new surface sample every few pixels: about so many a frame.
+// Approximate number of new surface samples per frame, one every few pixels.
 constexpr double kSamplesPerFrame = 32000.0;
 constexpr std::size_t kMaxSamples = 150'000;
-// A cell spans about so many pixels: wide enough for both sides of a soft edge, so narrow that
+// Width of a cell in pixels. It is wide enough for both sides of a soft edge. It is so narrow that
 // little but the light changes across it.
 constexpr double kCellPx = 32.0;
 constexpr double kMinCell_m = 0.02;
 constexpr double kNormalSteps = 16.0;
-// 8-bit codes beyond which a value is clipped or mostly noise.
+// 8-bit pixel values beyond which a value is clipped or mostly noise.
 constexpr int kClippedCode = 250, kDarkCode = 5;
 constexpr double kBoardMarginM = 0.02;
 constexpr int kMarkerSurface = -1;
-constexpr int kMarkerSamples = 96;  // A side of the board.
+constexpr int kMarkerSamples = 96;  // Per side of the white margin.
 
 constexpr double kPlaneSteps = 1e3;
 

@@ -16,35 +16,36 @@
 
 namespace pleinair::compositor {
 
-/// A surface sample of a real surface with its brightness, averaged over the frames that show it.
+/// A point on a real surface with its brightness, averaged over the frames that show it.
 struct SurfaceSample {
   Point<Marker> point;
   Vec3 normal;
-  double footprint_m = 0.0;  ///< Edge of a pixel where it was first seen.
+  double footprint_m = 0.0;  ///< Edge of a pixel there, at the first observation.
   std::array<double, 3>
       log_rgb{};           ///< Mean logarithm of linear light over the frame's exposure scale.
-  int surface = 0;         ///< PhantomSurface's; below 0: the marker's white.
-  LinearRgb albedo{};      ///< Stated for the surface.
-  std::uint32_t cell = 0;  ///< Spots of one cell: neighbours on one material and plane.
-  int frames = 0;          ///< That show it unclipped.
+  int surface = 0;         ///< As in PhantomSurface; below 0: the marker's white.
+  LinearRgb albedo{};      ///< As described for the surface.
+  std::uint32_t cell = 0;  ///< Samples of one cell are neighbours on one material and plane.
+  int frames = 0;          ///< Frames that show it unclipped.
 };
 
-/// A plane of one material: PhantomSurface's surface, all of the marker's white being one, and the
-/// normal in thousandths, since those of one plane differ by rounding.
+/// A plane of one material: surface and normal. The surface is that of PhantomSurface; all of the
+/// marker's white is one surface. The normal is in thousandths, because normals on one plane differ
+/// by rounding.
 using SurfacePlane = std::pair<int, std::array<int, 3>>;
 
 SurfacePlane PlaneOf(int surface, Vec3 normal);
 
-/// What frames show of the phantoms' surfaces and of the marker's white, spread over the surfaces
-/// themselves, so that several frames of a moving camera add up. Sun and weather must be the same
-/// in all of them.
+/// Samples the phantoms' surfaces and the marker's white in frames. Samples are fixed to the
+/// surfaces, so that several frames of a moving camera add up. Sun and weather must be the same in
+/// all frames.
 class SurfaceSamples {
  public:
-  /// `phantoms` must live as long.
+  /// `phantoms` must outlive this object.
   SurfaceSamples(const PhantomRays& phantoms, const CameraModel& camera,
                  const scene::MarkerReflectance& marker, const CameraResponse& response = {});
 
-  /// `gain`: the camera's scale in this frame, of which only the change from frame to frame counts.
+  /// `exposure_scale` is the camera's in this frame. Only its change between frames matters.
   void AddFrame(ImageView<const std::uint8_t> rgb, const Transform<Camera, Marker>& pose,
                 LinearRgb exposure_scale);
 
@@ -56,7 +57,7 @@ class SurfaceSamples {
  private:
   using CellKey = std::array<int, 8>;
 
-  /// Whether a sample shows at a pixel of a frame; adds its brightness there.
+  /// Returns true if the frame shows the sample at `pixel`, and adds its brightness.
   bool Observe(ImageView<const std::uint8_t> rgb, const Transform<Camera, Marker>& pose,
                LinearRgb exposure_scale, SurfaceSample* sample, Vec2* pixel) const;
   void AddSurfaceSample(const PhantomSurface& surface, double distance_m);

@@ -13,46 +13,48 @@ namespace pleinair::compositor {
 namespace {
 
 constexpr int kPairsPerSide = 40;
-constexpr double kInSun = 0.98, kInShade = 0.02;  // Sun visibility beyond which no penumbra is.
+// Sun visibility beyond which a point is not in a penumbra.
+constexpr double kInSun = 0.98, kInShade = 0.02;
 constexpr int kClippedCode = 252, kBlackClippedCode = 243;
-// White over black, at the least, where the marker is the right way round. The reflectances'
-// ratio is 20; glare bright enough to bring it down to this leaves nothing to measure.
+// Minimum ratio of white to black on a marker that is not inverted. The reflectances' ratio is 20.
+// Veiling glare that reduces it to this value leaves nothing to measure.
 constexpr double kClearlyBrighter = 1.25;
-// A shadow's edge on the marker: light on its two sides differs by more than this factor.
+// Minimum ratio of the light on the two sides of a shadow edge on the marker.
 constexpr double kShadowContrast = 1.6;
 constexpr double kShadowShare = 0.15;
-// Relative spread of a marker's light from which on leaves are dappling it; from a little less to a
-// little more its brightest surface samples count more and more, so that no frame differs much from
-// the next.
+// Relative spread of a marker's light at which leaves dapple it. Between the lower and the upper
+// bound the weight of the brightest surface samples rises, so that consecutive frames differ
+// little.
 constexpr double kDappled = 0.10, kHardlyDappled = 0.08, kSurelyDappled = 0.12;
-// Pairs in the sun that a shadow across the marker must leave.
+// Minimum number of sunlit pairs beside a shadow across the marker.
 constexpr int kMinBrightPairs = 6;
-// Share of its pairs that are the brightest.
+// Share of the pairs that count as the brightest.
 constexpr double kBrightest = 0.2;
-// Share of clipped whites up to which white counts: their median is known then; and of the
-// brightest, of which fewer may be, since the brightest of the rest are no longer the brightest.
+// Maximum share of clipped whites for the use of the whites: their median is then known. The limit
+// for the brightest pairs is lower, because the brightest unclipped ones are no longer the
+// brightest.
 constexpr double kMaxClippedShare = 0.45, kMaxClippedShareOfBrightest = 0.2;
-// Share of the darkest whites by which light is told to be uneven where others clip, and how far
-// below the middle they lie in a normal distribution, in standard deviations.
+// Share of darkest whites that show uneven light where other whites are clipped. Second: their
+// distance below the mean of a normal distribution, in standard deviations.
 constexpr double kDarkest = 0.05, kDarkestSigmas = 1.645;
-// Pairs on either side whose blacks are looked at together.
+// Pairs on either side over which blacks are averaged.
 constexpr std::size_t kNeighbours = 2;
 constexpr double kMinBand_px = 3.0;
-// A median's standard error over a mean's, of a normal distribution: sqrt(π / 2).
+// Standard error of a median over that of a mean, for a normal distribution: sqrt(π / 2).
 constexpr double kMedianError = 1.2533;
 
-// How much stronger than the model's the sky may be beside the sun where a shadow is looked for:
-// haze makes it shallower.
+// Sky radiance scale beside the sun that is allowed for in the shadow search: haze makes shadows
+// shallower.
 constexpr double kHaze = 2.0;
-// Share of the pairs that are white on neither side: from then on something covers the marker.
+// Share of pairs that are white on neither side. From this share on, an object covers the marker.
 constexpr double kCovered = 0.1;
 
 using Rgb = std::array<double, 3>;
 
 double Sum(const Rgb& value) { return value[0] + value[1] + value[2]; }
 
-/// Where values fall apart into a darker and a brighter group that a shadow's edge would explain,
-/// the value between them; otherwise nothing. Two-means on logarithms.
+/// Threshold between a darker and a brighter group of values, if a shadow edge explains the groups;
+/// otherwise nothing. Two-means on logarithms.
 std::optional<double> ShadowThreshold(const std::vector<double>& values) {
   double low = std::log(Quantile(values, 0.05)), high = std::log(Quantile(values, 0.95));
   std::size_t dark = 0;
@@ -92,7 +94,8 @@ MarkerLightMeter::MarkerLightMeter(const scene::MarkerReflectance& marker,
   const LinearRgb sun = day.SunNormalIrradiance();
   const double cosine = std::max(0.0, Dot(normal, to_sun));
   const double half = marker.size_m / 2;
-  // The middle of each band. Without a known board there is still a quiet zone around every marker.
+  // The middle of each band. Without a known white margin there is still a quiet zone around every
+  // marker.
   const double margin_m = (marker.board_size_m - marker.size_m) / 2;
   const double white_m = (margin_m > 0.0 ? margin_m : marker.black_band_m) / 2;
   const double black_m = marker.black_band_m / 2;
@@ -229,8 +232,8 @@ std::optional<MarkerLightMeter::ChannelScale> MarkerLightMeter::MedianOf(
   const double exposure_scale = Median(values);
   if (!(exposure_scale > 0.0) || !std::isfinite(exposure_scale)) return std::nullopt;
   const double low = Quantile(values, 0.25), high = Quantile(values, 0.75);
-  // Of clipped whites no more is known than that they are brighter than the rest: as if they were
-  // as far from the middle as the darker ones.
+  // Clipped whites are only known to be brighter than the rest. They are assumed to be as far from
+  // the median as the darker ones.
   const double between = std::isfinite(high) ? high - low : 2.0 * (exposure_scale - low);
   // Interquartile range of a normal distribution: 1.349 standard deviations.
   const double spread = between / 1.349 / exposure_scale;
@@ -250,8 +253,8 @@ std::optional<MarkerLightMeter::ChannelScale> MarkerLightMeter::BlackScaleOf(
     const std::vector<Sample>& pairs, std::size_t channel, int min_count) {
   auto exposure_scale = MedianOf(ScalesBy(pairs, &Sample::black_scale, channel), min_count);
   if (!exposure_scale) return std::nullopt;
-  // Blacks are so dark that their noise looks like leaves. Whites that are not clipped tell better:
-  // in even light they all lie near where it clips.
+  // The noise of blacks resembles dappled light. Unclipped whites measure the spread better: in
+  // even light they all lie near the clipping limit.
   std::vector<double> whites = ScalesBy(pairs, &Sample::white_scale, channel);
   const double low = whites.empty() ? INFINITY : Quantile(whites, kDarkest);
   std::erase_if(whites, [](double white) { return std::isinf(white); });
@@ -266,7 +269,7 @@ std::optional<std::array<MarkerLightMeter::ChannelScale, 3>> MarkerLightMeter::S
     const std::vector<Sample>& pairs, int min_count) {
   std::array<std::optional<ChannelScale>, 3> channels;
   std::array<bool, 3> by_black{};
-  // Glare makes blacks too bright; by how much, channels show of which both are read.
+  // Veiling glare makes blacks too bright. Channels with both measurements show by how much.
   double log_glare = 0.0;
   int with_both = 0;
   for (std::size_t c = 0; c < 3; ++c) {
@@ -306,10 +309,10 @@ std::array<std::optional<MarkerLightMeter::ChannelScale>, 3> MarkerLightMeter::B
   Rgb Sample::*by = &Sample::white_scale;
   if (std::max({ClippedShare(pairs, 0), ClippedShare(pairs, 1), ClippedShare(pairs, 2)}) >
       kMaxClippedShareOfBrightest) {
-    // Which white is the brightest is not seen, and the brightest of the rest may be half-lit.
+    // The brightest white is unknown, and the brightest of the unclipped ones may be half-lit.
     std::erase_if(blacks, [](const Sample& pair) { return std::isnan(Sum(pair.black_scale)); });
     pairs = blacks;
-    // The mean of some neighbours, so that it is not their noise that chooses.
+    // The mean of some neighbours, so that noise does not choose the brightest.
     for (std::size_t i = 0; i < blacks.size(); ++i) {
       const std::size_t first = i < kNeighbours ? 0 : i - kNeighbours;
       const std::size_t end = std::min(blacks.size(), i + kNeighbours + 1);
@@ -331,11 +334,11 @@ std::optional<ExposureEstimate> MarkerLightMeter::Measure(
     ImageView<const std::uint8_t> rgb, const CameraModel& camera,
     const Transform<Camera, Marker>& camera_from_marker) const {
   auto [samples, contrary] = SamplesIn(rgb, camera, camera_from_marker);
-  // A marker the other way round, or not where it is thought to be: the exposure scale of its
-  // white, taken for black, would be twenty times too high.
+  // An inverted marker, or a wrong pose. The exposure scale from its white, taken for black, would
+  // be twenty times too high.
   if (contrary > samples.size()) return std::nullopt;
-  // Where the sun reaches the marker, the sunlit part alone counts: there the model's doubt about
-  // the sky's share matters least.
+  // Where the sun reaches the marker, only the sunlit part counts. The uncertainty of the modelled
+  // sky matters least there.
   const auto lit = std::count_if(samples.begin(), samples.end(),
                                  [](const Sample& sample) { return sample.in_sun; });
   bool few_bright = false;
@@ -348,7 +351,7 @@ std::optional<ExposureEstimate> MarkerLightMeter::Measure(
     const auto bright = std::count_if(levels.begin(), levels.end(),
                                       [&](double level) { return level >= threshold; });
     if (bright < kMinBrightPairs)
-      return std::nullopt;  // The others would say that the shade is the sun.
+      return std::nullopt;  // The others would take the shade for the sun.
     std::erase_if(samples, [&](const Sample& sample) { return sample.level < threshold; });
     few_bright = bright < kMinimumPairs;
   }
@@ -361,8 +364,9 @@ std::optional<ExposureEstimate> MarkerLightMeter::Measure(
   const auto exposure_scales = ScalesOf(samples, min_count);
   if (!exposure_scales) return std::nullopt;
   std::array<ChannelScale, 3> channels = *exposure_scales;
-  // Under leaves no edge divides light from shade: its brightest surface samples come nearest to
-  // the sun. They are the same in each channel, though blue, the sky's color, may hardly show it.
+  // Under leaves no edge divides light from shade, and the brightest surface samples come nearest
+  // to the sun. They are the same in each channel, although blue, the sky's color, may hardly show
+  // it.
   const double spread = std::max({channels[0].spread, channels[1].spread, channels[2].spread});
   if (lit >= kMinimumPairs && spread > kHardlyDappled) {
     estimate.dappled = spread > kDappled;
@@ -375,7 +379,7 @@ std::optional<ExposureEstimate> MarkerLightMeter::Measure(
       if (whole)
         channel.exposure_scale *=
             std::pow(bright[c]->exposure_scale / channel.exposure_scale, part);
-      // How near to the sun is not known, however many pairs there are.
+      // The remaining distance to full sun is unknown, for any number of pairs.
       channel.error += part * (channel.spread - channel.error);
     }
   }

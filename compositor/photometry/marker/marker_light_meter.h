@@ -18,58 +18,58 @@
 
 namespace pleinair::compositor {
 
-/// What the marker in one frame says of the camera's exposure and white balance.
+/// Estimate of the camera's exposure and white balance from the marker in one frame.
 struct ExposureEstimate {
-  /// Display-linear value per radiance (1 / (cd/m²)), each channel of linear Rec.709.
+  /// Display-linear value per radiance (1 / (cd/m²)), per channel of linear Rec.709.
   LinearRgb exposure_scale;
-  /// Of the exposure scale, relative, one standard deviation: from the pairs' scatter, which a
-  /// median of so many leaves little of. What the model's light is wrong by comes on top.
+  /// Standard deviation of the exposure scale, relative. It comes from the scatter of the pairs,
+  /// which the median of many pairs reduces. Errors of the modelled light add to it.
   LinearRgb error;
   int pairs = 0;              ///< White–black pairs used.
-  double sunlit_share = 0.0;  ///< Share of the marker that the phantoms leave in the sun.
-  /// Leaves shade it: its light is uneven where it should be in the sun, even where only the few
-  /// pairs are looked at that a shadow's edge leaves there. Its brightest surface samples alone
-  /// were used.
+  double sunlit_share = 0.0;  ///< Share of the marker that the phantoms leave sunlit.
+  /// Leaves shade the marker: its light is uneven where the model has it in the sun. Then only its
+  /// brightest surface samples were used. The flag is also set where a shadow edge leaves only few
+  /// pairs.
   bool dappled = false;
 };
 
-/// Uses the marker as a light meter. Pairs of points on either side of the outer black edge have
-/// nearly the same light; the difference of their colors over the difference of their
-/// reflectances, divided by the light that the model predicts there, is the camera's scale. The
-/// difference cancels veiling glare that adds to both.
+/// Estimates exposure and white balance from the marker.
 ///
-/// Pairs in a penumbra or too small are left out. Where half of a channel's whites are clipped, its
-/// black is read in their place, which veiling glare makes too bright: by as much as in channels
-/// whose white is not clipped, if there is one. Where part of the marker that should
-/// be in the sun is much darker than the rest (a shadow of something that no phantom stands for),
-/// the brighter part counts, from six pairs on.
+/// Each pair has one point on either side of the outer black edge, under nearly the same light.
+/// Exposure scale = color difference / (reflectance difference × predicted radiance per
+/// reflectance). The difference cancels additive veiling glare.
+///
+/// Pairs in a penumbra or too small are not used. Where half of a channel's whites are clipped, its
+/// black is measured instead. Veiling glare makes the black too bright. The correction comes from
+/// the channels with unclipped white, if there are any. Unmodelled geometry may shade a part of the
+/// marker that should be sunlit. Then the brighter part counts, from six pairs on.
 class MarkerLightMeter {
  public:
-  /// Predicts the light on the marker's sample points; they lie still in marker coordinates, so
-  /// this is done once a light.
+  /// Predicts the light on the marker's sample points. The points are fixed in marker coordinates,
+  /// so this is done once per light.
   MarkerLightMeter(const scene::MarkerReflectance& marker, const PhantomRays& phantoms,
                    const sky::SkyModel& day, const Mat3& marker_from_world,
                    const CameraResponse& response = {});
 
-  /// Nothing where fewer than `kMinimumPairs` pairs can be used, or where most pairs are not
-  /// clearly brighter on the white side: a marker the other way round, as of tag families whose
-  /// border is black outside and white inside.
+  /// Returns nothing where fewer than `kMinimumPairs` pairs can be used. Returns nothing where most
+  /// pairs are not clearly brighter on the white side. This is an inverted marker: some tag
+  /// families have a border that is black outside and white inside.
   std::optional<ExposureEstimate> Measure(
       ImageView<const std::uint8_t> rgb, const CameraModel& camera,
       const Transform<Camera, Marker>& camera_from_marker) const;
 
-  /// A shadow's sharp edge that divides the marker, a phantom's or another thing's, where hardly
-  /// anything covers it.
+  /// Finds a sharp shadow edge that divides the marker, whatever casts it. Returns nothing if too
+  /// much of the marker is covered.
   std::optional<MarkerShadowEdge> FindShadow(
       ImageView<const std::uint8_t> rgb, const CameraModel& camera,
       const Transform<Camera, Marker>& camera_from_marker) const;
 
-  /// Where the pairs lie that count: those in the sun, where there are enough of them. At the edge
-  /// between white and black.
+  /// Places of the pairs in use, at the edge between white and black. These are the sunlit pairs if
+  /// there are enough, otherwise all.
   const std::vector<Point<Marker>>& places() const { return places_; }
-  /// Whether these lie in the sun.
+  /// True if these places lie in the sun.
   bool in_sun() const { return in_sun_; }
-  /// Mean light predicted there: what readings are told in terms of. Black without places.
+  /// Mean light predicted there, which is the unit of the estimates. Black without places.
   LinearRgb light_on_marker() const { return light_on_marker_; }
 
   static constexpr int kMinimumPairs = 12;
@@ -81,37 +81,38 @@ class MarkerLightMeter {
     double sun_visibility = 0.0;
   };
 
-  /// What one pair shows in a frame.
+  /// Measurement of one pair in a frame.
   struct Sample {
-    /// NaN where it cannot be used, of a clipped white infinite.
+    /// NaN where it cannot be used; infinite for a clipped white.
     std::array<double, 3> white_scale, black_scale;
     MarkerPair seen;
-    double level;  // Sum of the channels' scale, to tell sun from shadow.
+    double level;  // Sum of the channels' scales, to separate sun from shadow.
     bool in_sun;
   };
   struct Samples {
     std::vector<Sample> pairs;
-    std::size_t contrary = 0;  // Pairs left out: white on neither side, or black without.
+    std::size_t contrary = 0;  // Rejected pairs: white on neither side, or black outside.
   };
-  /// A channel's scale as the pairs have it.
+  /// A channel's scale by the pairs.
   struct ChannelScale {
     double exposure_scale = 0.0;       // Their median.
-    double error = 0.0, spread = 0.0;  // Of it and of a single pair, relative.
+    double error = 0.0, spread = 0.0;  // Of the median and of a single pair, relative.
   };
   static std::vector<double> ScalesBy(const std::vector<Sample>& pairs,
                                       std::array<double, 3> Sample::*by, std::size_t channel);
-  /// Nothing where fewer than `fewest` can tell it.
+  /// Returns nothing where there are fewer than `min_count` values.
   static std::optional<ChannelScale> MedianOf(const std::vector<double>& values, int min_count);
-  /// Of the pairs, those whose white is clipped.
+  /// Share of the pairs whose white is clipped.
   static double ClippedShare(const std::vector<Sample>& pairs, std::size_t channel);
-  /// By the blacks; how uneven the light is, by whites as far as they are not clipped.
+  /// Scale by the blacks. The spread comes from the whites, as far as they are not clipped.
   static std::optional<ChannelScale> BlackScaleOf(const std::vector<Sample>& pairs,
                                                   std::size_t channel, int min_count);
-  /// By the whites; where half of a channel's are clipped, by its blacks.
+  /// Scales by the whites. A channel with half of its whites clipped uses its blacks.
   static std::optional<std::array<ChannelScale, 3>> ScalesOf(const std::vector<Sample>& pairs,
                                                              int min_count);
-  /// By the brightest of the pairs, `fewest` at least, the same ones in each channel: by whites,
-  /// or where any channel of these is clipped by blacks, the brightest of which lie elsewhere.
+  /// Scales by the brightest pairs, `min_count` at least and the same ones for each channel. Uses
+  /// their whites. If any channel of these is clipped, it uses the blacks, of which other pairs are
+  /// the brightest.
   static std::array<std::optional<ChannelScale>, 3> BrightestOf(std::vector<Sample> pairs,
                                                                 int min_count);
   Samples SamplesIn(ImageView<const std::uint8_t> rgb, const CameraModel& camera,
@@ -121,7 +122,7 @@ class MarkerLightMeter {
   CameraResponse response_;
   std::vector<Pair> pairs_;
   double sunlit_share_ = 0.0;
-  LinearRgb shadow_depth_;  // As FindMarkerShadowEdge() takes it; 0: none to be looked for.
+  LinearRgb shadow_depth_;  // As FindMarkerShadowEdge() takes it; 0: no shadow is searched.
   std::vector<Point<Marker>> places_;
   bool in_sun_ = false;
   LinearRgb light_on_marker_;

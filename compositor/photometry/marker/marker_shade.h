@@ -4,17 +4,20 @@
 
 namespace pleinair::compositor {
 
-/// Open light over that on a marker which leaves shade, each channel: shade is not only darker but
-/// bluer. The marker has the sky and a part of the sun, so much that the mean logarithm of the
-/// channels is that of `sunlit_scale`, what surfaces in the open tell
-/// (compositor/photometry/shade/sunlit_levels.h). `sun`, `sky`: on the marker in the open, linear
-/// Rec.709, any unit.
+/// Ratio of direct sunlight to the light on a marker that leaves shade, per channel. Shade is not
+/// only darker but bluer.
 ///
-/// Where a marker without any sun would still be brighter than `sunlit_scale` says, the crowns take
-/// of the sky, or `sun` over `sky` is too low: things in the open lack nothing then, things beside
-/// the marker do, so that half of the rest counts (its root), in all channels alike. Ours, without
-/// a source: which of the two it is cannot be told. 1 without a sun, and from `sunlit_scale` 1
-/// down.
+/// The ratio is (sun + sky) / (part × sun + sky). `part` is chosen so that the mean logarithm of
+/// the channels is that of `sunlit_scale`. `sunlit_scale` comes from surfaces in direct sunlight
+/// (compositor/photometry/shade/sunlit_levels.h). `sun` and `sky` are the light on the unshaded
+/// marker, linear Rec.709, any unit. The result is 1 without a sun and for a `sunlit_scale` of 1 or
+/// less.
+///
+/// A marker without any sun may still be brighter than `sunlit_scale` requires. Then either the
+/// crowns occlude a part of the sky, or `sun` over `sky` is too low. Surfaces in direct sunlight
+/// lack no light then, but surfaces beside the marker do. Therefore the root of the remaining ratio
+/// is applied to all channels alike. This is ours, without a source: the two causes cannot be
+/// separated.
 LinearRgb MarkerShadeCorrection(double sunlit_scale, LinearRgb sun, LinearRgb sky);
 
 }  // namespace pleinair::compositor

@@ -13,18 +13,18 @@
 namespace pleinair::compositor {
 namespace {
 
-// So many pairs at least, and in the middle half between the levels at most this share of them: of
-// pairs along a square the edge of a shadow as wide as half of it leaves a fifth there.
+// Minimum number of pairs, and maximum share of pairs in the middle half between the two levels. A
+// shadow edge as wide as half of the square leaves a fifth of the square's pairs there.
 constexpr std::size_t kMinPairs = 24;
 constexpr double kMaxBetween = 0.1;
-// Share of a part's pairs on one side of the marker, at most.
+// Maximum share of a part's pairs on one side of the marker.
 constexpr double kMaxShareOnOneSide = 0.75;
-// The black's step over that which its reflectance gives: inks, glare and blur make it uncertain;
-// under a cover it is near 0 or falls where the white rises.
+// Step of the black over the step that its reflectance predicts. Inks, veiling glare and blur make
+// it uncertain. Under a cover it is near 0, or falls where the white rises.
 constexpr double kMinBlackStep = 0.4, kMaxBlackStep = 2.5;
-// What casts the shadow takes of the sky, most of it the bright part about the sun. How much is not
-// known: a band 0.2 rad wide, a column's at arm's length or a wall's edge, takes 3 % of an even sky
-// and several times that in haze. The doubt of the sky's strength is logarithmic.
+// Share of the sky that the caster occludes, mostly the bright part around the sun, and its
+// logarithmic uncertainty. The share is a guess. A band 0.2 rad wide occludes 3 % of an even sky
+// and several times that in haze. Examples are a column at arm's length or a wall's edge.
 constexpr double kTakenByCaster = 0.1, kCasterDoubt = 0.15;
 constexpr std::uint32_t kPaths = 384;
 
@@ -45,7 +45,7 @@ ShadowCell CellOf(std::span<const MarkerPair> pairs, LinearRgb depth) {
   return cell;
 }
 
-/// Whether more than a few pairs lie between the levels, as in half-light.
+/// True if more than a few pairs lie between the levels, as in half-light.
 bool HasHalfLight(const ShadowCell& cell, const TwoLevels& levels) {
   const double apart = levels.high - levels.low;
   const auto between = std::count_if(cell.surface_samples.begin(), cell.surface_samples.end(),
@@ -57,8 +57,8 @@ bool HasHalfLight(const ShadowCell& cell, const TwoLevels& levels) {
          kMaxBetween * static_cast<double>(cell.surface_samples.size());
 }
 
-/// Whether a good part of the surface samples lies beside the marker's side that has most of them:
-/// one side alone may lie in half-light all along, as sharp as any shadow.
+/// True if enough surface samples lie beside the marker's side that has most of them. One side
+/// alone may lie in half-light along its whole length, with an edge as sharp as a shadow's.
 bool GoesRoundACorner(std::span<const ShadowSample> surface_samples) {
   std::array<std::size_t, 4> sides{};
   for (const ShadowSample& surface_sample : surface_samples) {
@@ -71,7 +71,7 @@ bool GoesRoundACorner(std::span<const ShadowSample> surface_samples) {
   return maximum < kMaxShareOnOneSide * static_cast<double>(surface_samples.size());
 }
 
-/// Whether the black's step from one part to the other is that of its reflectance.
+/// True if the black's step between the two parts agrees with its reflectance.
 bool BlackFollows(std::span<const MarkerPair> pairs, double threshold, double black_share) {
   std::vector<double> dark, bright, dark_step, bright_step;
   for (const MarkerPair& pair : pairs) {
@@ -129,7 +129,8 @@ SunSkyRatio EstimateRatioFromMarkerShadow(const PhantomRays& phantoms,
   const LinearRgb sun = daylight.SunNormalIrradiance() * cosine;
   std::array<std::vector<double>, 3> log_scales;
   for (std::size_t i = 0; i < shadows.size(); ++i) {
-    // What a phantom casts the model knows; the share of the sky left by others is a guess.
+    // The model includes a phantom's occlusion of the sky. For other casters the visible share of
+    // the sky is a guess.
     const bool by_phantom = !phantoms.IsUnoccluded(shadows[i].shaded, to_sun);
     const double left = by_phantom ? 1.0 : 1.0 - kTakenByCaster;
     // exp(contrast) = (k sky + reflected + sun) / (k left sky' + reflected'), solved for k.

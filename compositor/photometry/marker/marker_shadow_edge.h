@@ -11,38 +11,38 @@
 
 namespace pleinair::compositor {
 
-/// What white and black side by side on the marker show of the light there, display-linear.
+/// Display-linear measurement of white and black side by side on the marker.
 struct MarkerPair {
   Point<Marker> place;
-  LinearRgb step;      ///< White less black, which a veil leaves as it is; above 0.
+  LinearRgb step;      ///< White minus black, which veiling glare does not change; above 0.
   double black = 0.0;  ///< Sum of the channels.
 };
 
-/// A shadow's sharp edge across the marker.
+/// A sharp shadow edge across the marker.
 struct MarkerShadowEdge {
-  LinearRgb contrast;         ///< Logarithm of the light in the bright part over the dark one's.
+  LinearRgb contrast;  ///< Logarithm of the light in the bright part over that in the dark part.
   Point<Marker> lit, shaded;  ///< Middles of the two parts.
 };
 
-/// Looks for a shadow whose `depth`, as `contrast`, is at least about so much. Two levels of light
-/// with hardly a pair between them, that change color as sun and sky do, and in which the black
-/// follows the white, as under a thing that lies on the marker it does not; `black_share` is the
-/// black's reflectance over that of the step. `pairs` are spread along the marker's edges.
+/// Finds a shadow whose contrast is at least about `depth`. The light must have two levels with
+/// hardly a pair between them, and change color as sun and sky do. The black must change with the
+/// white, which it does not under an object that covers the marker. `black_share` is the black's
+/// reflectance over that of the step. `pairs` are spread along the marker's edges.
 std::optional<MarkerShadowEdge> FindMarkerShadowEdge(std::span<const MarkerPair> pairs,
                                                      LinearRgb depth, double black_share);
 
-/// How strong the sky is beside the sun, from a shadow across the marker, whatever casts it;
-/// `shadows`: one a frame that shows it. What casts it takes a part of the sky as well, so that it
-/// is less certain than EstimateSunSkyRatio(), and says so. kUnknown where nothing can be read, as
-/// with the sun grazing the marker. `daylight` is the model, `marker_from_world` with the heading
-/// in use.
+/// Estimates the sky radiance scale beside the sun from a shadow across the marker, whatever casts
+/// it. `shadows` has one entry per frame with a shadow. `daylight` is the model,
+/// `marker_from_world` has the heading in use. The caster also occludes a part of the sky. The
+/// reported uncertainty is therefore larger than that of EstimateSunSkyRatio(). Returns kUnknown
+/// where no shadow can be measured, such as with the sun grazing the marker.
 SunSkyRatio EstimateRatioFromMarkerShadow(const PhantomRays& phantoms,
                                           std::span<const MarkerShadowEdge> shadows,
                                           const sky::SkyModel& daylight,
                                           const Mat3& marker_from_world);
 
-/// Below this cosine between the sun and the marker's normal, a small error of the heading is a
-/// large one of the sun's light.
+/// Cosine between the sun and the marker's normal. Below it, a small heading error becomes a large
+/// error of the sun's light.
 inline constexpr double kGrazingMarkerCosine = 0.2;
 
 }  // namespace pleinair::compositor

@@ -10,7 +10,8 @@
 namespace pleinair::compositor {
 namespace {
 
-// Of the board's width: how far around it counts, and how far beneath it the surface may lie.
+// In units of board_size_m: maximum distance around the white margin, and maximum height difference
+// of the surface.
 constexpr double kAround = 0.5, kBeneath = 0.05;
 constexpr double kFlush = 0.99;  // Cosine between the normals.
 constexpr std::size_t kMinSurfaceSamples = 100;

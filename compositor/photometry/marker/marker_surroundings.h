@@ -9,18 +9,18 @@
 
 namespace pleinair::compositor {
 
-/// What the phantom that the marker lies on shows around its board: the surface and the marker have
-/// the same light there, whatever casts a shadow on both.
+/// Brightness of the phantom surface around the marker's white margin. The surface and the marker
+/// have the same light there, whatever casts a shadow on both.
 struct MarkerSurroundings {
   SurfacePlane plane;
   double brightness =
       0.0;           ///< Median over surface samples of the mean logarithm of red, green and blue.
-  LinearRgb albedo;  ///< Stated for the surface.
+  LinearRgb albedo;  ///< As described for the surface.
 };
 
-/// Nothing where no phantom lies flush with the marker, or too little of it shows within half a
-/// board's width of the board that the model has in the sun. `reached`, of each sample: whether it
-/// does.
+/// Samples the surroundings where the model has them in the sun, up to half of `board_size_m`
+/// beyond the white margin. Returns nothing where no phantom lies flush with the marker, or too
+/// little of it shows. `sun_visible` has one flag per sample: the model has it in the sun.
 std::optional<MarkerSurroundings> FindMarkerSurroundings(
     const SurfaceSamples& samples, const std::vector<std::uint8_t>& sun_visible);
 

@@ -15,34 +15,34 @@ namespace {
 
 constexpr std::size_t kMinPlaces = 8;
 constexpr std::uint32_t kPaths = 384;
-// Of the places, those that are deep enough to lie beside the whole sun and in none of it.
+// Share of the places that are assumed to lie between full sun and none.
 constexpr double kDeepShare = 0.5;
-// Contrast below which a step tells nothing of what made it.
+// Contrast below which the cause of a step is unknown.
 constexpr double kMinStep = 0.25;
-// Doubt, logarithmic, of what all places have in common: half-light on either side makes the sky
-// look stronger beside the sun, what the crown takes of it weaker.
+// Logarithmic uncertainty common to all places. Half-light on either side makes the sky look
+// stronger beside the sun. The crown's occlusion of the sky makes it look weaker.
 constexpr double kCommonDoubt = 0.25;
 
-/// The strength of the sky, of the model's, with which `contrast` would be that of all the sun and
-/// none; not above 0 where even a black sky would leave less contrast.
+/// Sky radiance scale at which `contrast` is that between full sun and none. Not above 0 where even
+/// a black sky would give less contrast.
 double ScaleOf(double contrast, double sun, double sky, double reflected) {
   return (sun / std::expm1(contrast) - reflected) / sky;
 }
 
-/// How strong the sky is, from how deep the shade is at these places.
+/// Estimates the sky radiance scale from the depth of the shade at these places.
 SunSkyRatio ReadPlaces(const PhantomRays& phantoms, const std::vector<ShadowCrossing>& crossings,
                        double shaded, const sky::SkyModel& daylight,
                        const Mat3& marker_from_world) {
   SunSkyRatio estimate;
   const Vec3 to_sun = marker_from_world * daylight.ToSun().xyz;
-  // By plane, since that is how ambient light is asked for.
+  // By plane, because ambient light is evaluated per plane.
   std::map<std::array<double, 3>, std::vector<std::size_t>> by_normal;
   for (std::size_t i = 0; i < crossings.size(); ++i) {
     const Vec3 n = crossings[i].normal;
     by_normal[{n.x, n.y, n.z}].push_back(i);
   }
   const ScaledSky sky_alone(daylight, {1, 1, 1}, {});
-  // What reflects lies in the same shade, as far as it goes.
+  // Reflecting surfaces are shaded in the same proportion.
   const double sunlit = 1.0 - shaded;
   const ScaledSky sun_alone(daylight, {}, {sunlit, sunlit, sunlit});
   struct Place {

@@ -8,16 +8,17 @@
 
 namespace pleinair::compositor {
 
-/// How strong the sky is beside the sun, from how deep the shade of trees is where it crosses what
-/// the model has in the sun: the marker under leaves, say, where no phantom's own edge can be read.
-/// A surface sample of the ground between leaves has no more than the whole sun and in their shade
-/// no less than none of it, so that the deepest places of many tell the ratio; shallower ones are
-/// half-light. What the crown takes of the sky is in it: it is the sky beside the sun that is left
-/// there.
+/// Estimates the sun-to-sky ratio from the depth of tree shade on places that the phantoms leave
+/// sunlit. An example is a marker under leaves, where no phantom's shadow edge can be measured.
 ///
-/// `sun` is kShines where enough places tell, kUnknown otherwise; `edges` are the places,
-/// `agreeing` those deep enough to count. Less certain than EstimateSunSkyRatio(), and says so.
-/// `daylight` is the model, `marker_from_world` with the heading in use.
+/// A surface sample between the leaves' shadows has at most the whole sun, and one in their shade
+/// at least none of it. The deepest of many places therefore give the ratio; shallower ones are
+/// half-light. The result includes the crown's occlusion of the sky: it is the remaining sky beside
+/// the sun.
+///
+/// `daylight` is the model, `marker_from_world` has the heading in use. `sun` is kShines where
+/// enough places give a ratio, kUnknown otherwise. `edges` are the places, `agreeing` those deep
+/// enough to count. The reported uncertainty is larger than that of EstimateSunSkyRatio().
 SunSkyRatio EstimateRatioFromShade(const PhantomRays& phantoms, const UnmodelledShadows& unmodelled,
                                    const sky::SkyModel& daylight, const Mat3& marker_from_world);
 

@@ -8,20 +8,19 @@
 namespace pleinair::compositor {
 namespace {
 
-// An edge: two levels apart by this share of a shadow's depth, each of so many of the surface
-// samples.
+// Shadow boundary: minimum difference of the two levels as a share of a shadow's depth, and minimum
+// share of the surface samples on each level.
 constexpr double kEdgeDepth = 0.5, kSideShare = 0.12;
-// Spread about either level, of the distance between them; an even spread has 0.29.
+// Spread about the levels over their difference. A uniform distribution has 0.29.
 constexpr double kSharpness = 0.24, kSharp = 0.13;
-// Apartness(): bricks and joints lie among each other, sun and shade do not.
+// Limit for Apartness(). Bricks and joints are intermingled, sun and shade are not.
 constexpr double kApart = 0.7;
-// How much more or less than a shadow an edge may change color, logarithmic.
+// Maximum deviation of an edge's color step from a shadow's, logarithmic.
 constexpr double kMaxColorOffset = 0.35;
-// Logarithmic; paving and walls have smaller steps of their own.
+// Logarithmic. Paving and walls have smaller steps of their own.
 constexpr double kMinStep = 0.4;
-/// How far apart the middles of the first and of the other surface samples are, of all surface
-/// samples' distance from their middle: 1.2 for halves of a disc, near 0 where they lie among each
-/// other.
+/// Distance between the centroids of the first and of the other surface samples, over the root mean
+/// square radius of all. 1.2 for halves of a disc, near 0 for intermingled samples.
 double Apartness(const std::vector<ShadowSample>& surface_samples, std::size_t first) {
   const auto middle = [&](std::size_t from, std::size_t to) {
     Vec3 sum;
@@ -37,8 +36,7 @@ double Apartness(const std::vector<ShadowSample>& surface_samples, std::size_t f
                       : 0.0;
 }
 
-/// Whether the change of color from its dark surface samples to its bright ones is what sun and sky
-/// make.
+/// True if the color step from the dark to the bright surface samples is that between sky and sun.
 bool ChangesColorAsShadowsDo(const ShadowCell& cell, const TwoLevels& levels) {
   const double share = (levels.high - levels.low) / cell.depth;
   for (const std::size_t k : {0, 1}) {
@@ -53,7 +51,7 @@ bool ChangesColorAsShadowsDo(const ShadowCell& cell, const TwoLevels& levels) {
   return true;
 }
 
-/// The surface sample nearest to the middle of them all.
+/// The surface sample nearest to the centroid.
 Point<Marker> NearestToMiddle(const ShadowCell& cell) {
   Vec3 middle;
   for (const ShadowSample& surface_sample : cell.surface_samples)
@@ -69,7 +67,7 @@ Point<Marker> NearestToMiddle(const ShadowCell& cell) {
 }  // namespace
 
 TwoLevels SplitInTwo(const std::vector<ShadowSample>& sorted) {
-  // Every split is tried: there are few.
+  // Tries every split: there are few.
   double sum = 0.0, square = 0.0;
   for (const ShadowSample& surface_sample : sorted) {
     sum += surface_sample.value;
@@ -99,7 +97,7 @@ bool HasShadowBoundary(const ShadowCell& cell, const TwoLevels& levels) {
   const bool two = apart > std::max(kEdgeDepth * cell.depth, kMinStep) &&
                    levels.low_share > kSideShare && levels.low_share < 1 - kSideShare &&
                    levels.spread < kSharpness * apart;
-  // A pole's shadow lies in the middle of a cell, the sun on both sides of it; but it is sharp.
+  // A pole's shadow lies in the middle of a cell, with sun on both sides, but it is sharp.
   return two && (IsSharp(levels) || Apartness(cell.surface_samples, levels.low_count) > kApart) &&
          ChangesColorAsShadowsDo(cell, levels);
 }

@@ -10,7 +10,7 @@
 
 namespace pleinair::compositor {
 
-/// A surface sample's logarithmic brightness, and where it lies.
+/// Logarithmic brightness of a surface sample, and its position.
 struct ShadowSample {
   double value = 0.0;             ///< Mean of the logarithms of linear red, green and blue.
   std::array<double, 2> color{};  ///< Logarithms of red and blue over green.
@@ -20,18 +20,18 @@ struct ShadowSample {
 /// Two levels of brightness, by two-means.
 struct TwoLevels {
   double low = 0.0, high = 0.0;  ///< Means.
-  double spread = 0.0;           ///< Root mean square about the nearer one.
+  double spread = 0.0;           ///< Root mean square distance to the nearer mean.
   double low_share = 0.0;
   std::size_t low_count = 0;
 };
 
-/// What is seen of a small place on one material that faces the sun.
+/// Surface samples of a small cell on one material that faces the sun.
 struct ShadowCell {
   std::vector<ShadowSample> surface_samples;
   std::vector<double> in_sun;  // Values of the surface samples that the model has in the sun.
-  bool lit = false;            // Whether the model has some surface sample in the sun,
-  bool unlit = false;          // and whether some in the shade.
-  double depth = 0.0;          // Of a shadow there, logarithmic, green.
+  bool lit = false;            // The model has some surface sample in the sun.
+  bool unlit = false;          // The model has some surface sample in the shade.
+  double depth = 0.0;          // Depth of a shadow there, logarithmic, green.
   std::array<double, 2> color_step{};  // Red and blue against green.
   int surface = 0;
   Vec3 normal;  // Of its surface, unit, marker coordinates, towards the eye.
@@ -39,24 +39,25 @@ struct ShadowCell {
   SurfacePlane Plane() const { return PlaneOf(surface, normal); }
   double Median() const {
     return surface_samples[surface_samples.size() / 2].value;
-  }  // They are sorted.
+  }  // Surface samples are sorted.
 };
 
-/// Of sorted surface samples.
+/// Splits surface samples that are sorted by value.
 TwoLevels SplitInTwo(const std::vector<ShadowSample>& sorted);
 
-/// Whether little lies between the levels: a shadow's edge, no gradient or mottling.
+/// True if few values lie between the levels: a shadow edge, not a gradient or mottling.
 bool IsSharp(const TwoLevels& levels);
 
-/// Whether a shadow's edge divides a cell of sorted surface samples: two sharp levels, or two on a
-/// side each.
+/// True if a shadow boundary divides a cell of sorted surface samples: two sharp levels, or two
+/// levels on opposite sides.
 bool HasShadowBoundary(const ShadowCell& cell, const TwoLevels& levels);
 
-/// What a crossed cell shows.
+/// Measures the shadow boundary in a cell that contains one.
 ShadowCrossing CrossingOf(const ShadowCell& cell, const TwoLevels& levels);
 
-/// A cell that lies wholly in shade, darker than in the open by `contrast` (logarithmic, mean of
-/// the channels), which is divided among the channels as the model's shadow is.
+/// Converts a cell that lies wholly in shade, darker than in direct sunlight by `contrast`
+/// (logarithmic, mean of the channels). The contrast is divided among the channels as the modelled
+/// shadow is.
 ShadowCrossing CrossingOfShadowedCell(const ShadowCell& cell, double contrast);
 
 }  // namespace pleinair::compositor

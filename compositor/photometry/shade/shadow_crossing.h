@@ -5,12 +5,12 @@
 
 namespace pleinair::compositor {
 
-/// A small place on one material, in the sun as far as the phantoms go, of which a shadow's edge
-/// shows that a part is not.
+/// Small place on one material that the phantoms leave sunlit. A shadow boundary shows that a part
+/// of it is shaded.
 struct ShadowCrossing {
   Point<Marker> middle;
   Vec3 normal;         ///< Of its surface, unit, marker coordinates, towards the eye.
-  LinearRgb contrast;  ///< Logarithm of the bright part's light over the dark one's, a channel.
+  LinearRgb contrast;  ///< Logarithm of the bright part's light over the dark part's, per channel.
 };
 
 }  // namespace pleinair::compositor

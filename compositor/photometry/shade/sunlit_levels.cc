@@ -15,31 +15,32 @@ namespace {
 
 using Rgb = std::array<double, 3>;
 
-// Of a surface's cells in the open so many are darker than what counts as its sunlit level.
+// Quantile of a surface's sunlit cells that defines its sunlit reference brightness.
 constexpr double kSunlitQuantile = 0.8;
-// The brightest places of a surface, and how much brighter than its mean a pattern makes them.
+// Quantile of a surface's brightest places, and their logarithmic excess over the mean due to
+// patterns.
 constexpr double kSunlitTop = 0.95, kPattern = 0.15;
-// Logarithmic: how near surfaces' gains must be to agree.
+// Maximum logarithmic difference of exposure scales that agree.
 constexpr double kAgreement = 0.26;
-// Logarithmic: how much too bright beside the marker surfaces of two colors must be (1.5 times), or
-// of one (twice), for the marker to be taken for shaded, and of how many cells, or of which share.
+// Conditions for a shaded marker. Logarithmic excess of brightness beside the marker on surfaces of
+// two colors (1.5 times), or of one color (twice). Minimum number and share of such cells.
 constexpr double kTooBright = 0.405, kTooBrightAlone = 0.693;
 constexpr std::size_t kMinBrightCells = 8;
 constexpr double kMinBrightShare = 0.05;
-// Of the cells of a surface that is said to have a part in the open.
+// Minimum share of a surface's cells for a part in direct sunlight.
 constexpr double kMinSunlitShare = 0.25;
-// Cells in shade with which a surface contradicts one color alone.
+// Number of shaded cells by which a surface contradicts a single color.
 constexpr std::ptrdiff_t kMinShadowedCells = 3;
-// Logarithmic: darker than the brighter ones by more than colors are misjudged.
+// Logarithmic difference that errors of described colors do not explain.
 constexpr double kSurelyDarker = 0.5;
 
-/// What one surface tells of the exposure scale.
+/// Exposure scale estimate of one surface.
 struct SunlitEstimate {
   SunlitSurface* surface = nullptr;
   Rgb color{};
-  double predicted = 0.0;       // Brightness in the open sun at the frames' exposure scale.
-  double exposure_scale = 0.0;  // Logarithmic: its level over that.
-  std::size_t open = 0;         // Cells about as bright as that.
+  double predicted = 0.0;       // Brightness in direct sunlight at the frames' exposure scale.
+  double exposure_scale = 0.0;  // Logarithm of the surface's level over the predicted one.
+  std::size_t open = 0;         // Cells at about this level.
 };
 
 std::size_t Cells(const std::vector<SunlitEstimate>& surfaces) {
@@ -56,7 +57,7 @@ double MedianExposureScale(const std::vector<SunlitEstimate>& surfaces) {
   return exposure_scales.empty() ? 0.0 : Quantile(exposure_scales, 0.5);
 }
 
-/// What each color tells, as the median of its surfaces of a exposure scale above `least`.
+/// Estimate of each color: the median of its surfaces' exposure scales above `floor`.
 std::vector<double> ScalesByColor(const std::vector<SunlitEstimate>& surfaces, double floor) {
   std::map<Rgb, std::vector<double>> by_color;
   for (const SunlitEstimate& estimate : surfaces) {
@@ -69,7 +70,7 @@ std::vector<double> ScalesByColor(const std::vector<SunlitEstimate>& surfaces, d
   return medians;
 }
 
-/// Whether surfaces of two colors at least are near `gain`.
+/// True if surfaces of at least two colors agree with `exposure_scale`.
 bool ColorsAgree(const std::vector<SunlitEstimate>& surfaces, double exposure_scale) {
   const std::vector<double> exposure_scales =
       ScalesByColor(surfaces, -std::numeric_limits<double>::infinity());
@@ -78,8 +79,8 @@ bool ColorsAgree(const std::vector<SunlitEstimate>& surfaces, double exposure_sc
          }) > 1;
 }
 
-/// Whether a surface's cells show sun and shade: a few in shade, or a good part. Not where a shadow
-/// is so faint that patterns are as deep.
+/// True if a surface's cells show sun and shade: a few shaded cells, or a good part. False where a
+/// shadow is so faint that patterns are as deep.
 bool ShowsBoth(const SunlitSurface& surface, bool few) {
   if (surface.depth < kAgreement) return false;
   const double deep = kShadowDepthShare * surface.depth;
@@ -89,9 +90,9 @@ bool ShowsBoth(const SunlitSurface& surface, bool few) {
          }) >= kMinShadowedCells;
 }
 
-/// Whether a darker surface shows both places in the open and some in shade, so that it does not
-/// lie in shade as a whole: against one color alone by a few of them, against more by a good part
-/// and in not much fewer cells.
+/// True if a darker surface has both sunlit and shaded places, so that it does not lie wholly in
+/// shade. A few shaded places contradict one color alone. A good part, in not much fewer cells,
+/// contradicts several colors.
 bool IsContradicted(const std::vector<SunlitEstimate>& surfaces, double exposure_scale, bool agreed,
                     std::size_t bright_cells) {
   const std::size_t min_count =
@@ -105,7 +106,7 @@ bool IsContradicted(const std::vector<SunlitEstimate>& surfaces, double exposure
   });
 }
 
-/// The exposure scale of the brightest surfaces that are enough to be believed; 0 without.
+/// Exposure scale of the brightest surfaces with enough cells; 0 if there are none.
 SunlitScale BrightestScale(std::vector<SunlitEstimate> surfaces) {
   std::sort(surfaces.begin(), surfaces.end(), [](const SunlitEstimate& a, const SunlitEstimate& b) {
     return a.exposure_scale > b.exposure_scale;
@@ -121,7 +122,8 @@ SunlitScale BrightestScale(std::vector<SunlitEstimate> surfaces) {
                  });
     if (Cells(near) < enough) continue;
     const double exposure_scale = MedianExposureScale(near);
-    // Brighter ones, whom these contradict, say all the same that the marker is too dark: between.
+    // Even brighter surfaces that these contradict also show that the marker is too dark. The mean
+    // of both is used.
     const std::vector<double> colors = ScalesByColor(surfaces, exposure_scale - kAgreement);
     const bool alike = ColorsAgree(near, exposure_scale);
     const bool agreed = alike || (first > 0 && colors.size() > 1);
@@ -137,7 +139,7 @@ SunlitScale BrightestScale(std::vector<SunlitEstimate> surfaces) {
   return {};
 }
 
-/// Marks the surface whose shade the marker lies in, if one shows that.
+/// Marks the surface that shades the marker with it, if one does.
 bool MarkShadeAroundMarker(const SunlitIrradiance& light,
                            const std::vector<std::uint8_t>& sun_visible,
                            const SurfaceSamples& samples, SunlitSurfaces* surfaces) {
@@ -195,7 +197,7 @@ std::vector<double> SunlitSurface::SunlitCells() const {
 }
 
 double SunlitSurface::BrightLevel() const {
-  // Where leaves leave half-light everywhere, few places lie in the open.
+  // In dappled half-light few places are sunlit.
   return std::max(Quantile(SunlitCells(), 0.5), Quantile(tops, kSunlitTop) - kPattern);
 }
 

@@ -17,12 +17,12 @@
 
 namespace pleinair::compositor {
 
-/// Of a surface's places that the model has in the sun, a surface sample is taken for shaded where
-/// it is darker than the open ones by this share of a shadow's depth.
+/// Share of a shadow's depth. A surface sample that the model has in the sun is shaded if it is
+/// darker than the sunlit ones by this share.
 inline constexpr double kShadowDepthShare = 0.5;
 
-/// The light on surfaces in the open sun, phantoms about them as they are. cd/m² times steradian;
-/// marker coordinates.
+/// Light on surfaces in direct sunlight, with the phantoms around them. Unit: cd/m² times
+/// steradian. Frame of reference: marker coordinates.
 class SunlitIrradiance {
  public:
   SunlitIrradiance(const PhantomRays& phantoms, const MarkerLightMeter& meter,
@@ -31,13 +31,13 @@ class SunlitIrradiance {
 
   Vec3 to_sun() const { return to_sun_; }
   LinearRgb sky() const { return day_.SkyHorizontalIrradiance(); }
-  /// Mean logarithm of the light that the meter takes to be on the marker, the samples' unit.
+  /// Mean logarithm of the predicted light on the marker, which is the unit of the surface samples.
   double log_unit() const { return log_unit_; }
   LinearRgb sun_on_marker() const { return sun_on_marker_; }
   LinearRgb ambient_on_marker() const { return ambient_on_marker_; }
 
   LinearRgb SunOn(Vec3 normal) const;
-  /// Mean over places that face `normal`, of which a few are asked.
+  /// Mean over the places, which face `normal`. Only a few of them are evaluated.
   LinearRgb Ambient(const std::vector<Point<Marker>>& places, Vec3 normal) const;
 
  private:
@@ -53,57 +53,60 @@ class SunlitIrradiance {
 /// logarithms of linear red, green and blue.
 struct SunlitSurface {
   Vec3 normal;
-  std::vector<double> medians;  ///< Of its cells.
-  std::vector<double> tops;     ///< Of each cell, what a quarter of its surface samples exceeds.
-  double depth = 0.0;           ///< Of a shadow there, logarithmic.
-  double level = 0.0;           ///< In the open sun.
-  /// Whether none of it lies there: the level is then what other surfaces tell.
+  std::vector<double> medians;  ///< One per cell.
+  std::vector<double> tops;     ///< Upper quartile of the surface samples, one per cell.
+  double depth = 0.0;           ///< Depth of a shadow there, logarithmic.
+  double level = 0.0;           ///< Brightness in direct sunlight.
+  /// True if none of it lies in direct sunlight. Then the level comes from other surfaces.
   bool all_in_shadow = false;
-  /// Whether the marker lies on a darker part of it, in the same shade as that part.
+  /// True if the marker lies on a darker part of it, in the same shade as that part.
   bool shades_marker = false;
 
-  /// Medians of those that are no darker than most by a shadow's depth.
+  /// Medians of the sunlit cells: those that are not darker than most by a shadow's depth.
   std::vector<double> SunlitCells() const;
-  /// What its brightest places tell of the open sun, few though they may be.
+  /// Sunlit reference brightness by the brightest places, even if there are few.
   double BrightLevel() const;
-  /// What cells are compared with to tell whether they are shaded.
+  /// Reference brightness for the decision whether cells are shaded.
   double SunlitLevel() const;
 };
 
 using SunlitSurfaces = std::map<SurfacePlane, SunlitSurface>;
 
-/// What surfaces in the open sun tell of the camera's exposure scale.
+/// Exposure scale by surfaces in direct sunlight.
 struct SunlitScale {
-  double log = 0.0;  ///< Over the frames' own exposure scale; above 0 where the marker has less
-                     ///< than the sun.
-  /// Whether surfaces of two stated colors tell nearly that, for one may be wrong, or one does of
-  /// which that can hardly be.
+  /// Logarithm of the ratio to the frames' own exposure scale. Above 0 where the marker has less
+  /// than the sun.
+  double log = 0.0;
+  /// True if surfaces of two described colors agree nearly, because one color may be wrong. Also
+  /// true for one color that can hardly be so wrong.
   bool agreed = false;
-  /// Whether the surface that the marker lies on shows that it lies in shade
+  /// True if the surface below the marker shows that the marker lies in shade
   /// (SunlitSurface::shades_marker).
   bool shown_by_surroundings = false;
 };
 
-/// Finds how bright each surface is in the open sun, and what exposure scale that tells of: a
-/// median over cells, since colors are stated roughly and grass reflects less than its blades.
+/// Estimates the sunlit reference brightness of each surface, and the exposure scale by these. The
+/// exposure scale is a median over cells, because described colors are rough and grass reflects
+/// less than its blades.
 ///
-/// To be asked where something that no phantom stands for keeps the sun from a part of what is in
-/// view; surfaces need not have a part in the open. Where some are much brighter than their color
-/// allows beside the marker, and have a twentieth of the cells near their surfaces' levels, the
-/// marker lies in shade: the exposure scale is theirs, and surfaces that are darker than that by
-/// more than colors are misjudged lie in shade as a whole. The cause of a surface that is too
-/// bright can hardly be its stated color; of one that is too dark it can.
+/// Use it where unmodelled geometry shades a part of the view. A surface may lie wholly in shade.
+/// The marker lies in shade if some surfaces are much brighter beside it than their colors allow.
+/// Those surfaces must have a twentieth of the cells near their surfaces' levels. The exposure
+/// scale is then theirs. Surfaces that are darker by more than the error of described colors lie
+/// wholly in shade. A wrong color rarely explains a surface that is too bright, but may explain one
+/// that is too dark.
 ///
-/// A surface that shows sun and shade of its own speaks against that, but not where it is darker
-/// around the marker than elsewhere by a shadow's depth and about as bright there as its color
-/// makes it in the marker's own light: its bright places are then what the marker has not.
+/// A surface that shows both sun and shade contradicts this conclusion, with one exception. The
+/// exception is a surface that is darker around the marker than elsewhere by a shadow's depth. Its
+/// brightness there must match its color in the marker's own light. Its bright places then have the
+/// sun that the marker lacks.
 ///
-/// `reached`, of each sample: whether the model has it in the sun.
+/// `sun_visible` has one flag per sample: the model has it in the sun.
 SunlitScale FindSunlitLevels(const SunlitIrradiance& light,
                              const std::vector<std::uint8_t>& sun_visible,
                              const SurfaceSamples& samples, SunlitSurfaces* surfaces);
 
-/// Cells that a surface's level needs.
+/// Minimum number of cells for a surface's level.
 inline constexpr std::size_t kMinCells = 4;
 
 }  // namespace pleinair::compositor

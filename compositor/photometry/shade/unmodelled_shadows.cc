@@ -22,20 +22,20 @@ using Rgb = std::array<double, 3>;
 
 constexpr double kGrazing = 0.2;
 constexpr std::size_t kMinSurfaceSamples = 12;
-// Of the cells that the model has in the sun, the darkest beside their surface's open level.
+// Share of the cells that are darkest relative to their surface's sunlit level.
 constexpr double kDeepestShare = 0.4;
 
-// Beside a phantom's own edge: so many surface samples in the sun; darker by this share of a
-// shadow's depth than the brightest places, of which so many are darker, for leaves leave a part of
-// the sun.
+// Beside a phantom's own edge: minimum number of sunlit surface samples. Second: share of a
+// shadow's depth by which they are darker than the brightest places. Third: quantile of the
+// brightest places, because leaves transmit a part of the sun.
 constexpr std::size_t kMinCountBesideEdge = 6;
 constexpr double kDimDepth = 0.25, kSunlitReferenceQuantile = 0.9;
 
-// Share of the sun below which a surface sample has none of it and above which it has all: between,
-// patterns that are darker or brighter than their mean and true half-light look alike.
+// Share of the sun below which a surface sample has none, and above which it has all. In between,
+// patterns and true half-light cannot be separated.
 constexpr double kNoSun = 0.1, kAllSun = 0.9;
 
-/// How much of the sun is on every surface sample that the model has in the sun.
+/// Estimates the sun's share at every surface sample that the model has in the sun.
 void MapSunlight(const SunlitIrradiance& light, const std::vector<std::uint8_t>& sun_visible,
                  const SurfaceSamples& samples, const SunlitSurfaces& surfaces,
                  UnmodelledShadows* unmodelled) {
@@ -47,7 +47,7 @@ void MapSunlight(const SunlitIrradiance& light, const std::vector<std::uint8_t>&
     const SurfaceSample& surface_sample = samples.samples()[i];
     if (sun_visible[i] == 0 || Dot(surface_sample.normal, light.to_sun()) < kGrazing) continue;
     double level = std::max(0.0, log_exposure_scale) + light.log_unit() +
-                   std::log(surface_sample.albedo.g / std::numbers::pi);  // Of the marker's white.
+                   std::log(surface_sample.albedo.g / std::numbers::pi);  // For the marker's white.
     if (surface_sample.surface >= 0) {
       const auto found = surfaces.find(PlaneOf(surface_sample.surface, surface_sample.normal));
       if (found == surfaces.end() || found->second.medians.size() < kMinCells) continue;
@@ -65,7 +65,7 @@ void MapSunlight(const SunlitIrradiance& light, const std::vector<std::uint8_t>&
   unmodelled->sun_transmittance = BuildSunTransmittanceMap(light.to_sun(), surface_samples);
 }
 
-/// Looks at the sunny sides of the phantoms' own shadows.
+/// Measures the sunny sides of the phantoms' own shadows.
 void CountShadedEdges(const std::vector<ShadowCell>& cells, const SunlitSurfaces& sunlit,
                       UnmodelledShadows* unmodelled) {
   int shaded = 0;
@@ -85,8 +85,8 @@ void CountShadedEdges(const std::vector<ShadowCell>& cells, const SunlitSurfaces
   }
 }
 
-/// The share of the cells that the model has wholly in the sun that are darker than their
-/// surface's `level` by so much as shade.
+/// Share of the wholly sunlit cells of the model that are darker than their surface's `level` by a
+/// shadow's depth.
 template <typename Level>
 double ShadedShare(const std::vector<ShadowCell>& cells, const SunlitSurfaces& sunlit,
                    const Level& level, int* count) {
@@ -101,8 +101,9 @@ double ShadedShare(const std::vector<ShadowCell>& cells, const SunlitSurfaces& s
   return *count > 0 ? static_cast<double>(shaded) / *count : 0.0;
 }
 
-/// Looks at the places that the model has in the sun. Of a ground that hardly has a place in the
-/// open its few brightest tell: most of it is as dark as the rest, but not as all the sun.
+/// Measures the places that the model has in the sun. A ground with hardly any sunlit place is
+/// judged by its few brightest places. Most of it is as dark as the rest, but not as bright as in
+/// full sun.
 void CountShaded(const std::vector<ShadowCell>& cells, const SunlitSurfaces& sunlit,
                  UnmodelledShadows* unmodelled) {
   unmodelled->shaded = ShadedShare(
@@ -114,7 +115,7 @@ void CountShaded(const std::vector<ShadowCell>& cells, const SunlitSurfaces& sun
   if (unmodelled->IsWide()) unmodelled->shaded = std::max(unmodelled->shaded, unmodelled->dim);
 }
 
-/// The darkest places beside their surfaces' open levels.
+/// The darkest places relative to their surfaces' sunlit levels.
 std::vector<ShadowCrossing> DeepestPlaces(const std::vector<ShadowCell>& cells,
                                           const SunlitSurfaces& sunlit) {
   struct Place {
@@ -208,7 +209,7 @@ UnmodelledShadows FindUnmodelledShadows(const PhantomRays& phantoms, const Surfa
   unmodelled.sunlit_scale.ratio = std::exp(exposure_scale.log);
   unmodelled.sunlit_scale.agreed = exposure_scale.agreed;
   unmodelled.sunlit_scale.shown_by_surroundings = exposure_scale.shown_by_surroundings;
-  // Once more, with the levels of surfaces that have no part in the open.
+  // Again, with the levels of surfaces that lie wholly in shade.
   CountShaded(cells, sunlit, &unmodelled);
   CountShadedEdges(cells, sunlit, &unmodelled);
   unmodelled.deepest = DeepestPlaces(cells, sunlit);

@@ -13,63 +13,64 @@
 
 namespace pleinair::compositor {
 
-/// Shadows in view that no phantom explains: a tree's, a neighbouring house's, or the phantoms' own
-/// where the sun does not stand where it is thought to.
+/// Shadows in view that no phantom explains. Trees or neighbouring houses may cast them, or the
+/// phantoms themselves if the assumed sun position is wrong.
 struct UnmodelledShadows {
   /// Places on the sunny side of the phantoms' own shadows.
   struct SunnySides {
     int places = 0;
-    double shaded = 0.0;  ///< Share of them that lie in shade all the same.
+    double shaded = 0.0;  ///< Share of them that is shaded all the same.
   };
-  /// What the phantoms' sunlit places show of the camera (SunlitScale).
+  /// Exposure scale by the phantoms' sunlit places (SunlitScale).
   struct ExposureScale {
-    /// Over that of the frames: above 1 where the marker, or the brightest of it, has less than the
-    /// open sun.
+    /// Ratio to the frames' exposure scale. Above 1 where the marker, or its brightest part, has
+    /// less than direct sunlight.
     double ratio = 1.0;
     bool agreed = false;
     bool shown_by_surroundings = false;
   };
-  /// The sun's light on the marker in the open and all other, as phantoms leave it.
+  /// Light of the sun and all other light on the unshaded marker, with the phantoms around it.
   struct LightOnMarker {
     LinearRgb sun, ambient;
   };
 
-  int places = 0;          ///< Small cells of one material that face the sun.
-  int boundary_cells = 0;  ///< Of them, those that a shadow's edge crosses.
-  double edges = 0.0;      ///< Their share.
+  int places = 0;          ///< Cells of one material that face the sun.
+  int boundary_cells = 0;  ///< Cells that contain a shadow boundary.
+  double edges = 0.0;      ///< Share of boundary_cells in places.
   int sunlit = 0;          ///< Cells that the model has wholly in the sun.
-  double shaded = 0.0;     ///< Share of them that lie in shade.
-  double dim = 0.0;        ///< The same beside their surfaces' open levels, which few may reach.
+  double shaded = 0.0;     ///< Share of them that is shaded.
+  /// The same by the sunlit reference brightness of their surfaces, which few cells may reach.
+  double dim = 0.0;
   SunnySides sunny_sides;
   ExposureScale sunlit_scale;
   LightOnMarker on_marker;                ///< Where Matters().
   SunTransmittanceMap sun_transmittance;  ///< Where Matters().
   std::vector<ShadowCrossing> crossings;
-  /// The darkest of the cells that the model has wholly in the sun, beside the light in the open:
-  /// where no edge shows how deep the shade is. Where something shades what is in view.
+  /// Darkest of the cells that the model has wholly in the sun, relative to the light in direct
+  /// sunlight. They serve where no edge shows the shade's depth. Filled where unmodelled geometry
+  /// shades the view.
   std::vector<ShadowCrossing> deepest;
 
-  /// Whether the edges are more than chance and things that no phantom stands for bring about: a
-  /// sun must cast them.
+  /// True if there are more edges than chance and unmodelled objects cause: a sun must cast them.
   bool CastBySun() const;
-  /// Whether so much is so dark that hardly anything but a sun's shade makes it so, though a crown
-  /// leaves no sharp edge.
+  /// True if so large an area is so dark that only sun shade explains it, although a crown leaves
+  /// no sharp edge.
   bool IsWide() const;
-  /// Whether the marker is so much darker than what lies in the open that it must lie in shade,
-  /// even if evenly: no stated color is believed to be so far off. Less will do where the surface
-  /// that it lies on shows that.
+  /// True if the marker must lie in shade, even if evenly, because it is much darker than sunlit
+  /// surfaces. No described color is expected to be so wrong. A smaller difference suffices where
+  /// the surface below the marker shows the shade.
   bool ShadesMarker() const;
-  /// Whether what casts them keeps the sun from the phantoms' own shadows, too, which then show no
-  /// edge under whatever sun; where the sun is thought to stand elsewhere than it does, most of
-  /// these places lie in the open.
+  /// True if the unmodelled geometry also hides the sun from the phantoms' own shadows, which then
+  /// show no edge. If the assumed sun position is wrong, most of these places are sunlit instead.
   bool HidesEdges() const;
-  /// Whether so much lies in shade that the model has in the sun that pictures must be asked where.
+  /// True if so much of the modelled sunlit area is shaded that each image must be tested for
+  /// shade.
   bool Matters() const;
 };
 
-/// Looks for shadows of about the depth that `daylight` gives them where the sky is
-/// `sky_radiance_scale` times as strong beside its sun; `marker_from_world` with the heading in
-/// use. `meter`: by which the samples' gains were read.
+/// Finds shadows of about the depth that `daylight` predicts with its sky scaled by
+/// `sky_radiance_scale` beside its sun. `marker_from_world` has the heading in use. `meter` is the
+/// one that estimated the samples' exposure scales.
 UnmodelledShadows FindUnmodelledShadows(const PhantomRays& phantoms, const SurfaceSamples& samples,
                                         const MarkerLightMeter& meter,
                                         const sky::SkyModel& daylight,
