@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kAzimuths = 12, kElevations = 3, kDistances = 13;
 constexpr double kMaxElevation = 30.0 * std::numbers::pi / 180.0;
-constexpr double kMinDistance_m = 4.0;  // And doubled from node to node: 16 km at the end.
+constexpr double kMinDistance_m = 4.0;  // Doubled from node to node: 16 km at the end.
 
 glm::dvec3 ToGlm(LinearRgb c) { return {c.r, c.g, c.b}; }
 
@@ -91,7 +91,8 @@ glm::vec3 FogSplits::MaxLightPerMetre() const {
   glm::vec3 maximum(0.0F), light(0.0F), depth(0.0F);
   float distance = 0.0F;
   for (int i = 0; i < kMax; ++i) {
-    // Where a stretch begins its light grows fastest: x / (1 − e^−x) times its mean, 1 + x at most.
+    // The light of a segment grows fastest at its start: x / (1 − e^−x) times its mean, 1 + x at
+    // most.
     const glm::vec3 x = optical_depth[i] - depth;
     const glm::vec3 faster = glm::max(1.0F + x, glm::vec3(1.0F));
     const float length_m = distance_m[i] - distance;

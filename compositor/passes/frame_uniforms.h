@@ -8,7 +8,7 @@
 
 namespace pleinair::compositor {
 
-/// What the programs that shade surfaces are told of one frame. Marker coordinates, metres.
+/// Per-frame uniforms of the programs that shade surfaces. Marker coordinates, metres.
 struct FrameUniforms {
   glm::mat4 clip_from_marker{1.0F};
   glm::vec3 eye_m{0.0F};
@@ -16,12 +16,14 @@ struct FrameUniforms {
   glm::vec3 exposure_scale{0.0F};  ///< Display-linear value per radiance.
   glm::vec3 to_sun{0.0F};          ///< Unit; zero without a sun.
   glm::vec3 sun_normal_lux{0.0F};
-  std::array<glm::vec4, 2> texture_from_marker{};  ///< Of SunTransmittanceMap's map.
+  std::array<glm::vec4, 2> texture_from_marker{};  ///< For the map of SunTransmittanceMap.
   FogSplits fog;
-  bool needs_airlight = false;         ///< The air before the farthest real surface is noticed,
-  bool linear_needs_airlight = false;  ///< and where only the sky's light changes, steadily.
+  /// The airlight in front of the farthest real surface is noticeable.
+  bool needs_airlight = false;
+  /// The airlight is noticeable where the shadow ratio is linear.
+  bool linear_needs_airlight = false;
 
-  /// Eye, exposure scale and sun, which all of them are told.
+  /// Sets the uniforms common to all programs: eye, exposure scale and sun.
   void Set(const gl::GlProgram& program) const;
   /// For shaders/visible_surface.glsl.
   void SetRays(const gl::GlProgram& program) const;

@@ -68,8 +68,7 @@ void ObjectPass::Draw(const RenderTargets& targets, const SceneSurfaces& surface
   targets.seen().Bind(0);
   environment.Bind(3);
   targets.texels().Bind(4);
-  // Numbered as KindOf() in shaders/visibility_buffer_layout.glsl has the kinds of objects'
-  // triangles.
+  // Same values as KindOf() in shaders/visibility_buffer_layout.glsl for triangles of objects.
   for (int kind = 0; kind < 2; ++kind) {
     const gl::GlProgram& program = kind == 0 ? programs.objects : programs.objects_in_own_shade;
     program.Use();

@@ -12,24 +12,24 @@
 
 namespace pleinair::compositor {
 
-/// The virtual objects, each piece of surface in a pixel shaded once: first which triangle each
-/// sample shows, then what of a pixel is to be shaded, then that alone. Needs a current OpenGL
-/// context; move-only.
+/// Draws the virtual objects and shades each piece of surface in a pixel once. It draws triangle
+/// numbers per sample, classifies the pixels, and shades only those that need it. Needs a current
+/// OpenGL context; move-only.
 class ObjectPass {
  public:
   ObjectPass() = default;
   /// Errors as gl::GlProgram::Create.
   static Result<ObjectPass> Create();
 
-  /// Draws which triangles of the objects the samples show, over the numbers of the real surfaces
-  /// that ShadowRatioPass::DrawSurfaces() drew and behind their depth. Binds textures to unit 0.
+  /// Draws the objects' triangle numbers into the samples. The real surfaces' numbers and depth of
+  /// ShadowRatioPass::DrawSurfaces() must be in place. Binds textures to unit 0.
   void DrawSurfaces(const RenderTargets& targets, const SceneSurfaces& surfaces,
                     const FrameUniforms& frame) const;
 
-  /// Shades what DrawSurfaces() found into targets.objects(). `within`: where objects are in the
-  /// picture. The shadow maps and, at unit 5, the map of the sunlight must have been bound, and
-  /// GL_DEPTH_TEST be enabled and GL_CULL_FACE not. Binds textures of its own to units 0 to 4, 6
-  /// and 7; leaves the depth written and tested with GL_LESS, and no scissors.
+  /// Shades the surfaces of DrawSurfaces() into targets.objects(). `within` bounds the objects in
+  /// the image. Requires bound shadow maps, the sun transmittance map at unit 5, GL_DEPTH_TEST
+  /// enabled and GL_CULL_FACE disabled. Binds its own textures to units 0 to 4, 6 and 7. Afterwards
+  /// depth writes are on, depth tests use GL_LESS, and the scissor test is off.
   void Draw(const RenderTargets& targets, const SceneSurfaces& surfaces,
             const SurfacePrograms& programs, const FrameUniforms& frame,
             const gl::GlTexture& environment, const PixelRect& within) const;

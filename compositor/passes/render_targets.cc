@@ -10,8 +10,7 @@ constexpr std::array<GLenum, 3> kSampledFormats{GL_R32UI, GL_RGBA16F, GL_DEPTH_C
 
 }  // namespace
 
-// More than kWantedSamples are not asked for: Mesa's software renderer stops there, and so do the
-// shaders.
+// Requests at most kWantedSamples: Mesa's software renderer and the shaders support no more.
 int RenderTargets::SamplesGiven() {
   int samples = kWantedSamples;
   for (const GLenum format : kSampledFormats) {

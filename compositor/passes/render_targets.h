@@ -6,33 +6,35 @@
 
 namespace pleinair::compositor {
 
-/// What the virtual picture is drawn into. Geometry has several samples a pixel; light on the real
-/// surfaces is worked out once for each pixel and surface that it shows.
+/// Framebuffers of the virtual image. Geometry has several samples per pixel. Light on the real
+/// surfaces is evaluated once per pixel and visible surface.
 class RenderTargets {
  public:
-  /// Errors (system): a size or format that the renderer cannot do.
+  /// Errors (system): a size or format that the renderer does not support.
   static Result<RenderTargets> Create(int width, int height);
 
-  /// Draws go to the numbers of triangles, a sample each, and to their depth; cleared to 0.
+  /// Directs drawing to the triangle numbers, one per sample, and their depth; cleared to 0.
   void BeginSurfaces() const;
-  /// Draws go there still; `textured`: and to what textures leave of the base color (color 1).
+  /// Directs drawing to the same targets. If `textured`, also to the base color texels (color 1).
   void BeginObjectIds(bool textured) const;
-  /// Draws go, once a pixel, to what the numbers say of it, and its depth.
+  /// Directs drawing to the classification of the triangle numbers, once per pixel, and its depth.
   void BeginSorting() const;
-  /// Draws go to objects(), the objects' premultiplied display-linear color with coverage, with
-  /// the depth that sorting gave; cleared to 0.
+  /// Directs drawing to objects(): premultiplied display-linear color with coverage, cleared to 0.
+  /// Uses the depth of the classification.
   void BeginObjects() const;
-  /// Draws go to the differential ratio, cleared to 1, with the depth that sorting gave.
+  /// Directs drawing to the shadow-catcher ratio, cleared to 1. Uses the depth of the
+  /// classification.
   void BeginRatio() const;
-  /// After BeginRatio(): draws go to the ratio (color 0) and to objects() (color 1).
+  /// After BeginRatio(): directs drawing to the ratio (color 0) and to objects() (color 1).
   void BeginAirlight() const;
-  /// Where one pass over ratio() and objects() may be drawn into; `back`: from there into them.
+  /// Directs drawing to the targets of a pass over ratio() and objects(). If `back`, from those
+  /// into ratio() and objects().
   void BeginPass(bool back) const;
   const gl::GlTexture& passed_ratio() const { return passed_.ratio; }
   const gl::GlTexture& passed_objects() const { return passed_.objects; }
 
-  /// Samples a pixel that geometry is meant to have; and those that the renderer whose context is
-  /// current gives it, which may be fewer.
+  /// Wanted samples per pixel of geometry. SamplesGiven() returns the samples that the current
+  /// context's renderer provides, which may be fewer.
   static constexpr int kWantedSamples = 4;
   static int SamplesGiven();
 
@@ -44,15 +46,15 @@ class RenderTargets {
   const gl::GlTexture& objects() const { return picture_.objects; }
 
  private:
-  /// Several a pixel: of what geometry draws.
+  /// Several per pixel, drawn by geometry.
   struct Samples {
     gl::GlTexture ids, texels, depth;
   };
-  /// One a pixel.
+  /// One per pixel.
   struct VirtualPicture {
     gl::GlTexture ratio, objects;
   };
-  /// Where draws go, by the function that begins them.
+  /// One per Begin function.
   struct Framebuffers {
     gl::GlFramebuffer ids, ids_and_texels, sort, objects;
     gl::GlFramebuffer ratio, ratio_and_airlight;

@@ -12,7 +12,7 @@
 namespace pleinair::compositor {
 namespace {
 
-// Sides of the two finest maps that are left open; those of the others are half of it.
+// Side of the two finest maps where no size is given; the others have half of it.
 constexpr int kMinMapWithoutSize_px = 1024, kMaxMapWithoutSize_px = 2048;
 constexpr float kReachSlack = 1.25F, kReachTexels = 6.0F;
 
@@ -43,7 +43,7 @@ Result<SceneShadows> SceneShadows::Create(const shadows::ShadowMapOptions& optio
   return shadows;
 }
 
-/// Maps of moments do, as the paper's.
+/// Maps of moments are fitted to the view, as in the paper.
 bool SceneShadows::FitsView() const {
   const shadows::MapContent content = shadows::ContentOf(options());
   return content == shadows::MapContent::kMoments || content == shadows::MapContent::kWarpedMoments;
@@ -58,7 +58,7 @@ Result<void> SceneShadows::Update(const SceneSurfaces& surfaces, Direction<Marke
     if (FitsView()) {
       PLEINAIR_RETURN_IF_ERROR(maps.UpdateForView(casters[set], to_sun, view));
     } else {
-      // Around the objects, whatever the camera does: drawn once a light.
+      // Fitted to the objects, independent of the camera: drawn once per light.
       PLEINAIR_RETURN_IF_ERROR(
           maps.UpdateForRegion(casters[set], to_sun, surfaces.placement().object_bounds()));
     }
@@ -68,12 +68,13 @@ Result<void> SceneShadows::Update(const SceneSurfaces& surfaces, Direction<Marke
 }
 
 SunWindow SceneShadows::Window() const {
-  // Of two steps of the sun one will do: a window's margin is wider than a step moves it.
+  // One of the two sun steps is enough: a window's margin is wider than a step moves it.
   const shadows::ShadowSliceUniforms& finest = maps().uniforms().slices[0];
   const glm::vec4& to_sun = maps().uniforms().to_sun;
   if (FitsView()) return SunWindow::Everywhere(to_sun);
-  // A blocker shades no farther aside than the disc is wide as seen from the depths' far end; a
-  // quarter more for the sun between two steps. Texels: those that a look compares beside its own.
+  // A blocker's penumbra reaches as far as the disc's width, seen from the far end of the depth
+  // range. Another quarter covers the sun between two steps. Texels: those that a lookup compares
+  // beside its own.
   const float reach_m = kReachSlack * finest.size.w * to_sun.w +
                         kReachTexels * std::max(finest.size.x, finest.size.y);
   return {finest.u_from_marker, finest.v_from_marker, finest.size.z, to_sun, reach_m};

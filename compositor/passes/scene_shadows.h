@@ -11,30 +11,30 @@
 
 namespace pleinair::compositor {
 
-/// Shadow maps of a scene: one set with the phantoms alone, for what the picture has already, and
-/// one with the virtual objects. Needs a current OpenGL context.
+/// Shadow maps of a scene. One set has the phantoms alone, whose shadows are already in the image.
+/// The other set also has the virtual objects. Needs a current OpenGL context.
 class SceneShadows {
  public:
   /// Sets of shadow maps, as the shaders number them.
   enum Set { kPhantomsAlone, kWithObjects, kSets };
 
-  /// How the maps are made. `picture_px`: the longer side of the picture, for maps whose size is
-  /// left open.
+  /// Options of the maps. `picture_px` is the longer side of the image, for maps without a given
+  /// size.
   static shadows::ShadowMapOptions MapOptions(const ComposerOptions& options, int picture_px);
 
   SceneShadows() = default;
   /// Errors as shadows::FadingShadowMaps::Create.
   static Result<SceneShadows> Create(const shadows::ShadowMapOptions& options);
 
-  /// Redraws what changed and binds both sets. `view`: what the camera sees of the scene.
+  /// Redraws the maps that changed and binds both sets. `view` is the camera's view of the scene.
   Result<void> Update(const SceneSurfaces& surfaces, Direction<Marker> to_sun,
                       const shadows::View& view);
 
-  /// The shaders must mix two steps of the sun.
+  /// True if the shaders must mix two steps of the sun.
   bool Fades() const { return sets_.front().Fades(); }
-  /// Where the objects may change the sun's light, after Update().
+  /// Bounds in which the objects may change the sun's light, after Update().
   SunWindow Window() const;
-  /// The maps with the objects, of the step of the sun that counts most.
+  /// Maps with the objects, at the sun step with the larger weight.
   const shadows::ShadowMaps& maps() const { return sets_[kWithObjects].maps(); }
   const shadows::ShadowMapOptions& options() const { return sets_.front().options(); }
 

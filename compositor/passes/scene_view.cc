@@ -26,7 +26,7 @@ glm::dvec3 Corner(const shadows::Box& box, int corner) {
           (corner & 4) != 0 ? box.max.z : box.min.z};
 }
 
-/// Nearest and farthest depth at which something of the scene can lie.
+/// Minimum and maximum depth of the scene.
 std::pair<double, double> DepthRange(const Transform<Camera, Marker>& camera_from_marker,
                                      const shadows::Box& bounds) {
   double nearest = 1e30, farthest = 0.0;

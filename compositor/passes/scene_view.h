@@ -9,13 +9,13 @@
 
 namespace pleinair::compositor {
 
-/// What the render camera sees of a scene that lies within `bounds`: its pyramid of view, with near
-/// and far as tight around the scene as its box tells.
+/// View frustum of the render camera. Near and far planes fit the `bounds` of the scene as tightly
+/// as the box allows.
 shadows::View ViewOf(const RenderCamera& camera,
                      const Transform<Camera, Marker>& camera_from_marker,
                      const shadows::Box& bounds);
 
-/// Directions of sight, marker coordinates, not unit: [0] + x [1] + y [2] is the ray through
+/// Viewing rays in marker coordinates, not unit vectors. [0] + x [1] + y [2] is the ray through
 /// gl_FragCoord (x, y), one metre deep.
 std::array<glm::vec3, 3> RaysThroughPixels(const RenderCamera& camera, const shadows::View& view);
 
@@ -24,7 +24,7 @@ struct PixelRect {
   int x = 0, y = 0, width = 0, height = 0;
 };
 
-/// The smallest rectangle of the picture outside which nothing of `bounds` is seen.
+/// Smallest rectangle of the image that contains the projection of `bounds`.
 PixelRect PictureOf(const RenderCamera& camera, const shadows::View& view,
                     const shadows::Box& bounds);
 

@@ -54,7 +54,7 @@ void ShadowDebugView::Draw(const shadows::ShadowMaps& maps, const glm::mat4& cli
   glDrawArrays(GL_TRIANGLES, 0, 3);
   glDisable(GL_BLEND);
 
-  // Each map as large as its texels are many.
+  // Each map's area is in proportion to its texels.
   map_program_.Use();
   maps.BindDepth(0);
   const shadows::ShadowMapOptions& options = maps.options();
@@ -64,7 +64,7 @@ void ShadowDebugView::Draw(const shadows::ShadowMaps& maps, const glm::mat4& cli
   int left = gap;
   for (int i = 0; i < options.partitions; ++i) {
     const int side = std::max(output.height() / 4 * options.resolutions[i] / maximum, 1);
-    // Row 0 of the picture is its top.
+    // Row 0 of the image is its top.
     glViewport(left, output.height() - gap - side, side, side);
     map_program_.Set("u_slice", i);
     map_program_.Set("u_origin_px", glm::vec2(left, output.height() - gap - side));

@@ -12,17 +12,17 @@
 
 namespace pleinair::compositor {
 
-/// Shows over a composed picture which partition of the shadow maps each surface of the scene is
-/// looked up in, tinted (red, green, blue, yellow from the finest on, mixed where they fade into
-/// one another), and the maps in the lower left corner, dark nearest to the sun.
+/// Debug view over a composed image. It tints each surface by its shadow map partition: red, green,
+/// blue, yellow from the finest on, mixed where partitions fade into one another. It shows the maps
+/// in the lower left corner, where dark is nearest to the sun.
 class ShadowDebugView {
  public:
-  /// `width`, `height`: of the render picture. Errors as gl::GlProgram::Create.
+  /// `width` and `height` are those of the render image. Errors as gl::GlProgram::Create.
   static Result<ShadowDebugView> Create(const shadows::ShadowMapOptions& options, int width,
                                         int height);
 
-  /// `draw_surfaces` draws all surfaces with the program given, which is in use; `positions` is
-  /// RenderPositions(). Leaves `output` bound.
+  /// `draw_surfaces` draws all surfaces with the given program, which is in use. `positions` is
+  /// RenderPositions(). `output` is bound afterwards.
   void Draw(const shadows::ShadowMaps& maps, const glm::mat4& clip_from_marker,
             const std::function<void(const gl::GlProgram&)>& draw_surfaces,
             const gl::GlTexture& positions, const gl::GlFramebuffer& output) const;

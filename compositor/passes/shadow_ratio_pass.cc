@@ -69,7 +69,7 @@ void ShadowRatioPass::Draw(const RenderTargets& targets, const SceneSurfaces& su
   };
   if (!frame.linear_needs_airlight) draw_linear(linear_program_, false);
   if (frame.needs_airlight) {
-    // The air before a surface is seen beside the objects that cover the pixel in part.
+    // The airlight in front of a surface is visible beside objects that cover a part of the pixel.
     targets.BeginAirlight();
     glEnablei(GL_BLEND, 1);
     glBlendFuncSeparatei(1, GL_ONE, GL_ONE, GL_ZERO, GL_ONE);

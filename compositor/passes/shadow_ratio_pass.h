@@ -11,17 +11,17 @@
 
 namespace pleinair::compositor {
 
-/// What the virtual objects change of the real surfaces' light, once a pixel: first which triangle
-/// each sample of the picture shows, then what of a pixel is to be shaded, then that alone. Needs
-/// a current OpenGL context; move-only.
+/// Shadow-catcher ratio pass: how the virtual objects change the light of the real surfaces,
+/// evaluated once per pixel. It draws triangle numbers per sample, classifies the pixels, and
+/// shades only those that need it. Needs a current OpenGL context; move-only.
 class ShadowRatioPass {
  public:
   ShadowRatioPass() = default;
   /// Errors as gl::GlProgram::Create.
   static Result<ShadowRatioPass> Create();
 
-  /// Draws which triangles of the real surfaces the samples show, and their depth. What objects are
-  /// drawn before them afterwards is left out by Draw().
+  /// Draws the triangle numbers of the real surfaces into the samples, and their depth. Draw()
+  /// omits surfaces that objects later cover.
   void DrawSurfaces(const RenderTargets& targets, const SceneSurfaces& surfaces,
                     const FrameUniforms& frame) const;
 
@@ -29,15 +29,15 @@ class ShadowRatioPass {
     bool assume_unmodelled = true;  ///< Composer::AssumeUnmodelledShadows().
     double margin_size_m = 0.0;     ///< Composer::SetMarkerMargin().
   };
-  /// Shades what DrawSurfaces() found, once the objects are drawn.
-  /// CameraPicture::BindForShading(2, 3, 4), the shadow maps and the map of the sunlight at unit 5
-  /// must have been bound, and GL_DEPTH_TEST be enabled and GL_CULL_FACE not. Binds textures of its
-  /// own to units 0, 1, 6 and 7; leaves the depth written and tested with GL_LESS, and no blending.
+  /// Shades the surfaces of DrawSurfaces(), after the objects are drawn. Requires
+  /// CameraPicture::BindForShading(2, 3, 4), bound shadow maps, the sun transmittance map at unit
+  /// 5, GL_DEPTH_TEST enabled and GL_CULL_FACE disabled. Binds its own textures to units 0, 1, 6
+  /// and 7. Afterwards depth writes are on, depth tests use GL_LESS, and blending is off.
   void Draw(const RenderTargets& targets, const SceneSurfaces& surfaces,
             const SurfacePrograms& programs, const FrameUniforms& frame,
             const ShadowOptions& options) const;
 
-  /// Depth by which the pixels are sorted of which no more than this changes: twin of
+  /// Classification depth of pixels with at most this change. Must match
   /// shaders/visibility_buffer_layout.glsl.
   static constexpr float DepthOf(AffectedTriangles::Change change) {
     return 0.125F * static_cast<float>(change + 1);

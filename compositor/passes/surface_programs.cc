@@ -13,8 +13,9 @@ namespace {
 
 using shadows::SunDiscFilter;
 
-/// Where only the sky's light changes, by some hundredths, a real shadow's edge matters to so much
-/// of it: one sample of the map is as good there as many (0.01 of CIEDE2000 over key frames).
+/// Filter where only the sky's light changes, by some hundredths. A real shadow's edge affects only
+/// that change. One sample of the map is therefore as good as many (0.01 of CIEDE2000 over key
+/// frames).
 SunDiscFilter FilterForSky(SunDiscFilter filter) {
   return filter == SunDiscFilter::kFull ? SunDiscFilter::kSample : filter;
 }

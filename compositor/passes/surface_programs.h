@@ -9,22 +9,22 @@
 
 namespace pleinair::compositor {
 
-/// The programs that shade a scene's surfaces, of one permutation.
+/// Programs that shade a scene's surfaces, in one permutation.
 struct SurfacePrograms {
   struct Permutation {
-    bool fades = false;           ///< The sun stands between two steps, FadingShadowMaps::Fades().
-    bool needs_airlight = false;  ///< The air before the real surfaces counts.
-    bool textured = false;        ///< Some of the objects have textures,
-    bool glossy = false;          ///< and some mirror their surroundings.
+    bool fades = false;           ///< The sun lies between two steps, FadingShadowMaps::Fades().
+    bool needs_airlight = false;  ///< The airlight in front of the real surfaces is noticeable.
+    bool textured = false;        ///< Some objects have textures.
+    bool glossy = false;          ///< Some objects are glossy.
   };
   /// Errors as gl::GlProgram::Create.
   static Result<SurfacePrograms> Create(const shadows::ShadowMapOptions& options,
                                         const Permutation& permutation);
 
-  /// By what may change of the light: AffectedTriangles::kSun and kSunlitSky.
+  /// By the change of light: AffectedTriangles::kSun and kSunlitSky.
   std::array<gl::GlProgram, AffectedTriangles::kLinearSky> phantoms;
-  gl::GlProgram objects;               ///< Where the sun may shine on some of a pixel, and
-  gl::GlProgram objects_in_own_shade;  ///< where it does not.
+  gl::GlProgram objects;               ///< Where the sun may reach a part of a pixel.
+  gl::GlProgram objects_in_own_shade;  ///< Where the sun does not reach the pixel.
 };
 
 }  // namespace pleinair::compositor
