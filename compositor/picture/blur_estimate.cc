@@ -14,21 +14,21 @@ namespace {
 constexpr int kStripesPerSide = 48;
 constexpr double kNarrowestBandPx = 5.0;
 constexpr double kMaxEdgeDistance_px =
-    14.0;                         // From an edge: a blur of a third of it still shows whole.
-constexpr int kMinPixels = 40;    // Of a side's edge.
-constexpr double kBadFit = 0.12;  // RMS of a side's fit, of the step from black to white.
+    14.0;  // Distance from an edge within which a blur of a third of it is fully visible.
+constexpr int kMinPixels = 40;    // Per edge of a side.
+constexpr double kBadFit = 0.12;  // RMS of a side's fit, relative to the step from black to white.
 constexpr double kMinBlur_px = 0.2;
 
 double Gauss(double t) { return std::exp(-t * t / 2) / std::sqrt(2 * std::numbers::pi); }
 double GaussIntegral(double t) { return 0.5 * std::erfc(-t / std::numbers::sqrt2); }
 
-/// A pixel near an edge: distance across it, towards the white, and brightness.
+/// A pixel near an edge: distance across the edge, towards the white, and brightness.
 struct EdgePixel {
   double distance_px, value;
 };
 
-/// Least squares of black + (white − black) Φ((d − shift) / blur), Gauss–Newton with steps kept
-/// small (Levenberg 1944); nothing where the pixels are no such edge.
+/// Least-squares fit of black + (white − black) Φ((d − shift) / blur) by Gauss–Newton with damped
+/// steps (Levenberg 1944). Returns nothing if the pixels are no such edge.
 std::optional<double> FitBlur(const std::vector<EdgePixel>& pixels) {
   double shift = 0.0, blur = 0.7, damping = 1e-3;
   const auto cost_of = [&](double s, double b) {
@@ -74,8 +74,8 @@ std::optional<double> FitBlur(const std::vector<EdgePixel>& pixels) {
   return blur;
 }
 
-/// Adds the pixels of a strip across a side, brightness 0 in the black and 1 in the white; `along`:
-/// −1 at one of the side's ends, 1 at the other.
+/// Adds the pixels of a strip across a side, with brightness 0 in the black and 1 in the white.
+/// `along`: −1 at one end of the side, 1 at the other.
 void AddStripe(const MarkerInImage& marker, int side, double along,
                std::vector<EdgePixel>* pixels) {
   const double c = std::array{1.0, 0.0, -1.0, 0.0}[side];
@@ -98,8 +98,8 @@ void AddStripe(const MarkerInImage& marker, int side, double along,
   const double band_px = std::fabs(normal.x * outwards.x + normal.y * outwards.y);
   if (band_px < kNarrowestBandPx) return;
   const double reach = std::min(0.9 * band_px, kMaxEdgeDistance_px);
-  // The levels on either side, far from the edge, then every pixel whose centre lies in a strip
-  // of one pixel's width.
+  // The levels on either side, far from the edge, then every pixel with its centre in a strip one
+  // pixel wide.
   double white = 0.0, black = 0.0;
   int whites = 0, blacks = 0;
   std::vector<EdgePixel> strip;
@@ -129,7 +129,7 @@ void AddStripe(const MarkerInImage& marker, int side, double along,
   if (whites == 0 || blacks == 0) return;
   white /= whites;
   black /= blacks;
-  // Paper reflects twenty times what ink does; a hand or a shadow's edge does not look like it.
+  // Paper reflects twenty times as much as ink. A hand or a shadow edge has a lower contrast.
   if (white < 2.0 * black || white - black < 0.02) return;
   for (const EdgePixel& p : strip) {
     pixels->push_back({p.distance_px, (p.value - black) / (white - black)});

@@ -6,8 +6,9 @@
 
 namespace pleinair::compositor {
 
-/// Standard deviation, pixels, of the spread of each side of the outer black square: of those that
-/// show well enough, at most four. Apart from where light or an occluder changes.
+/// Estimates the blur of each side of the outer black square: standard deviation in pixels. Returns
+/// one value per side that is visible well enough, at most four. Omits places where the light
+/// changes or an occluder lies.
 std::vector<double> EstimateEdgeBlur(const MarkerInImage& marker);
 
 }  // namespace pleinair::compositor

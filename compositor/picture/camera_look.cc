@@ -26,7 +26,7 @@ std::optional<CameraLook> MeasureCameraLook(ImageView<const std::uint8_t> rgb,
   CameraLook look;
   double sum = 0.0;
   for (const double blur : blurs) sum += blur * blur;
-  // Motion blurs some sides more than others: their mean square is what one number can say.
+  // Motion blurs some sides more than others. Their mean square is the best single value.
   look.blur_px = std::sqrt(sum / static_cast<double>(blurs.size()));
   if (!MeasureNoise(in_picture, look.blur_px, &look)) return std::nullopt;
   return look;

@@ -12,23 +12,24 @@
 
 namespace pleinair::compositor {
 
-/// How a camera's picture looks beside a perfect one: what a drawn thing needs to sit in it.
+/// Sensor noise and blur of a camera image. Drawn objects need both to match the image.
 struct CameraLook {
-  /// Standard deviation of an edge's spread, pixels: lens, focus, motion and the pixel's own width
-  /// (0.29) together.
+  /// Standard deviation of the edge spread, pixels. It includes lens, focus, motion and the pixel's
+  /// own width (0.29).
   double blur_px = 0.0;
-  /// Variance of linear light (1 = brightest) is constant + slope * light, a channel: read-out
-  /// noise and photon noise. What rounding to 8 bits adds is not in it.
+  /// Variance of linear light (1 = brightest) is constant + slope * light, per channel: read-out
+  /// noise and photon noise. Rounding to 8 bits is not included.
   std::array<double, 3> noise_constant{}, noise_slope{};
-  double neighbour_correlation = 0.0;  ///< Of the noise of pixels side by side, 0…0.7.
-  double channel_correlation = 0.0;    ///< Of the noise of two channels, 0…1.
+  double neighbour_correlation = 0.0;  ///< Noise correlation of adjacent pixels, 0…0.7.
+  double channel_correlation = 0.0;    ///< Noise correlation of two channels, 0…1.
 
   double NoiseSigma(int channel, double light) const;
 };
 
-/// Measures the look of one frame on the marker: the spread of the outer black square's edges, and
-/// the noise of its black band and of the white around it, apart from where light or an occluder
-/// changes. Nothing where the marker is too small (bands below five pixels) or mostly hidden.
+/// Measures the look of one frame on the marker. Blur comes from the edges of the outer black
+/// square, noise from its black band and the white around it. Places where the light changes or an
+/// occluder lies are omitted. Returns nothing where the marker is too small (bands below five
+/// pixels) or mostly hidden.
 std::optional<CameraLook> MeasureCameraLook(ImageView<const std::uint8_t> rgb,
                                             const CameraModel& camera,
                                             const Transform<Camera, Marker>& camera_from_marker,

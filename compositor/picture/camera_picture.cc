@@ -15,11 +15,11 @@
 namespace pleinair::compositor {
 namespace {
 
-// What the drawing itself spreads an edge by, camera pixels, standard deviation: a pixel's width;
-// where it is warped, a smaller pixel and the interpolation between them.
+// Edge spread of the rendering itself, camera pixels, standard deviation: a pixel's width. A warped
+// image has a smaller pixel plus interpolation.
 constexpr double kOwnBlurPx = 0.29, kWarpedBlurPx = 0.33;
-// Less blur than this does not show; of noise of less than so many steps of 8 bits nobody can tell
-// whether it is the sensor's or what compression leaves.
+// Minimum visible blur. Minimum noise in 8-bit steps: weaker noise cannot be distinguished from
+// compression artefacts.
 constexpr double kMinBlur_px = 0.3, kMinNoiseSteps = 2.0;
 constexpr double kMaxBlur_px = 12.0;
 constexpr int kGrainSide = 256, kPixelValueTableSize = 4096;
@@ -92,7 +92,7 @@ Result<void> CameraPicture::SetCameraLook(const std::optional<CameraLook>& look)
     added_blur_px_ = std::min(std::sqrt(look->blur_px * look->blur_px - own * own), kMaxBlur_px);
   }
   if (added_blur_px_ < kMinBlur_px) added_blur_px_ = 0.0;
-  // Of a medium grey, where eyes tell most.
+  // Medium grey, where eyes are most sensitive.
   constexpr int kGreyCode = 118;
   const auto& table = response_.curve.Linear(1);
   const double step = table[kGreyCode + 1] - table[kGreyCode];
@@ -110,7 +110,7 @@ Result<void> CameraPicture::SetCameraLook(const std::optional<CameraLook>& look)
   return {};
 }
 
-/// Both virtual pictures, along the rows and then along the columns.
+/// Blurs both virtual images, along the rows and then along the columns.
 void CameraPicture::Blur(const RenderTargets& targets) const {
   const double sigma = added_blur_px_ * supersampling_;
   programs_.blur.Use();

@@ -17,9 +17,9 @@
 
 namespace pleinair::compositor {
 
-/// The last steps of a composed picture: what was drawn is blurred as the camera blurs, bent as its
-/// lens bends, put before the camera's own picture, given the camera's grain and written in its
-/// codes. Needs a current OpenGL context with the compositor's shaders registered.
+/// Last steps of compositing. The virtual image is blurred and distorted as by the camera and drawn
+/// over the camera image. It then receives the camera's noise and is encoded to 8-bit pixel values.
+/// Needs a current OpenGL context with the compositor's shaders registered.
 class CameraPicture {
  public:
   static Result<CameraPicture> Create(const CameraModel& camera, const RenderCamera& render,
@@ -28,24 +28,25 @@ class CameraPicture {
   /// As Composer::SetCameraLook().
   Result<void> SetCameraLook(const std::optional<CameraLook>& look);
 
-  /// Takes the camera's picture, `rgb`, of its size and without gaps between rows.
+  /// Uploads the camera image `rgb`. It must have the camera's size and no gaps between rows.
   void SetBackground(ImageView<const std::uint8_t> rgb);
-  /// Composes what was drawn into `targets` and resolved; the blur is left in them.
+  /// Composes the drawn and resolved `targets`. The blur is applied to them in place.
   void Draw(const RenderTargets& targets);
-  /// Binds the camera's picture, where render pixels lie in it, and the light of its codes.
+  /// Binds the camera image, the render pixels' positions in it, and the table of linear light per
+  /// pixel value.
   void BindForShading(int background_unit, int positions_unit, int light_unit) const {
     background_.Bind(background_unit);
     camera_positions_.Bind(positions_unit);
     response_.light_of_pixel_value.Bind(light_unit);
   }
-  /// The picture, with whatever else was drawn into framebuffer() since.
+  /// Returns the image, including anything drawn into framebuffer() since.
   RgbImage Read() const;
 
   const gl::GlTexture& positions() const { return positions_; }
   const gl::GlFramebuffer& framebuffer() const { return output_.framebuffer; }
 
  private:
-  /// The camera's response, and both ways through it as tables.
+  /// The camera's response, with tables for both directions.
   struct Response {
     CameraResponse curve;
     gl::GlTexture light_of_pixel_value, pixel_value_of_light;
@@ -60,9 +61,9 @@ class CameraPicture {
   /// The sensor's noise.
   struct Grain {
     gl::GlTexture texture;
-    std::optional<CameraLook> look;  // None: no grain that shows.
+    std::optional<CameraLook> look;  // Empty: no visible noise.
     double correlation = -1.0;       // Of the texture.
-    std::uint32_t pictures = 0;      // Composed so far: each gets grain of its own.
+    std::uint32_t pictures = 0;      // Images composed so far. Each receives its own noise.
   };
   Result<void> CreateResponseTables();
   void Blur(const RenderTargets& targets) const;

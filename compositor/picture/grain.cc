@@ -11,7 +11,7 @@ namespace pleinair::compositor {
 
 Image<float> MakeGrain(int side, double neighbour_correlation) {
   constexpr int kChannels = 4;
-  // White noise through (a, 1, a) along and across has the correlation 2 a / (1 + 2 a²).
+  // White noise filtered by (a, 1, a) in both directions has the correlation 2 a / (1 + 2 a²).
   const double rho = std::clamp(neighbour_correlation, 0.0, 0.7);
   const double a = rho > 0.0 ? (1.0 - std::sqrt(1.0 - 2.0 * rho * rho)) / (2.0 * rho) : 0.0;
   const double norm = 1.0 / (1.0 + 2.0 * a * a);

@@ -4,9 +4,9 @@
 
 namespace pleinair::compositor {
 
-/// Four channels of normally distributed numbers of mean 0 and variance 1, of which those of pixels
-/// side by side have this correlation (0…0.7) and those of different channels none. Tiles without
-/// a seam. Equal arguments give equal tiles.
+/// Makes four channels of normally distributed numbers with mean 0 and variance 1. Adjacent pixels
+/// have the given correlation (0…0.7), different channels have none. The image tiles without a
+/// seam. Equal arguments give equal images.
 Image<float> MakeGrain(int side, double neighbour_correlation);
 
 }  // namespace pleinair::compositor

@@ -15,8 +15,8 @@
 
 namespace pleinair::compositor {
 
-/// The marker's marker as one frame shows it: where its places lie among the pixels, and the linear
-/// light there (1 = brightest). Refers to what it is made of, which must outlive it.
+/// The marker in one frame: the pixel positions of its points, and the linear light there (1 =
+/// brightest). Keeps references to the constructor's arguments, which must outlive it.
 class MarkerInImage {
  public:
   MarkerInImage(ImageView<const std::uint8_t> rgb, const CameraModel& camera,
@@ -39,8 +39,8 @@ class MarkerInImage {
     return margin_m > 0.0 ? margin_m : marker_.black_band_m;
   }
 
-  /// Of a place on the marker (marker coordinates, metres); nothing where it lies behind the
-  /// camera.
+  /// Projects a point on the marker (marker coordinates, metres). Returns nothing where it lies
+  /// behind the camera.
   std::optional<Vec2> PixelOf(Vec2 on_marker) const {
     const Point<Camera> p = camera_from_marker_ * Point<Marker>{{on_marker.x, on_marker.y, 0.0}};
     if (p.xyz.z <= 0.0) return std::nullopt;
@@ -49,7 +49,7 @@ class MarkerInImage {
   bool IsInside(int x, int y) const {
     return x >= 0 && y >= 0 && x < rgb_.width() && y < rgb_.height();
   }
-  /// Whether one of the first `channels` of a pixel is too bright to be told.
+  /// True if one of the first `channels` of a pixel is clipped.
   bool IsClipped(int x, int y, int channels) const {
     for (int c = 0; c < channels; ++c) {
       if (rgb_(x, y, c) >= kClipped) return true;
@@ -59,7 +59,7 @@ class MarkerInImage {
   double Light(int x, int y, int c) const { return response_.Linear(c)[rgb_(x, y, c)]; }
   double Grey(int x, int y) const { return (Light(x, y, 0) + Light(x, y, 1) + Light(x, y, 2)) / 3; }
 
-  /// Variance that rounding to codes adds: a twelfth of a step squared.
+  /// Variance of rounding to 8-bit pixel values: a twelfth of a step squared.
   double RoundingAt(int c, double light) const {
     const auto& table = response_.Linear(c);
     const auto above = std::upper_bound(table.begin(), table.end(), static_cast<float>(light));

@@ -14,23 +14,23 @@
 namespace pleinair::compositor {
 namespace {
 
-constexpr int kMinPairs = 150;  // Of a level's noise.
-// Noise: the largest 5 % of the differences are something else's; a normal distribution cut at
-// 1.96 standard deviations keeps 0.7588 of its variance.
+constexpr int kMinPairs = 150;  // For the noise of one level.
+// The largest 5 % of the differences have other causes. A normal distribution cut at 1.96 standard
+// deviations keeps 0.7588 of its variance.
 constexpr double kKept = 0.95, kKeptVariance = 0.7588;
 constexpr double kTooFarFromMedian = 0.35;
-// The smoothest blocks of a picture have no more noise than the camera makes (after Liu, Freeman,
-// Szeliski & Kang 2006, "Noise Estimation from a Single Image"): of pure noise, the block that one
-// in fifty is smoother than has so much of the variance.
+// The smoothest blocks of an image have only the camera's noise (after Liu, Freeman, Szeliski &
+// Kang 2006, "Noise Estimation from a Single Image"). In pure noise, one block in fifty has less
+// than kSmoothestVariance of the variance.
 constexpr int kBlock = 8;
-// Nearer to an edge than a compressed block is wide, what compression leaves of the edge passes
-// for noise of about so many steps of 8 bits.
+// Within the width of a compressed block, artefacts of an edge look like noise of about so many
+// 8-bit steps.
 constexpr double kBlockReach_px = 8.5, kEdgeSteps = 3.0;
 constexpr double kSmoothest = 0.02, kSmoothestVariance = 0.62;
 constexpr int kMaxBlocks = 1200, kMinBlocks = 60;
 constexpr int kDarkestGrey = 25, kBrightestGrey = 235;
 
-/// Light and noise of the band or of the white: variances a channel, correlations.
+/// Light and noise of the band or of the white: variances per channel, correlations.
 struct Level {
   std::array<double, 3> light{}, variance{};
   double neighbour = 0.0, channel = 0.0;
@@ -46,8 +46,8 @@ double TrimmedVariance(std::vector<double> differences) {
   return sum / (static_cast<double>(kept) * kKeptVariance);
 }
 
-/// Noise of the middle of the black band or of the white round it, from differences of pixels side
-/// by side and three apart: light that changes slowly cancels.
+/// Measures the noise in the middle of the black band or of the white around it. It uses
+/// differences of adjacent pixels and of pixels three apart, in which slow changes of light cancel.
 std::optional<Level> NoiseOf(const MarkerInImage& marker, bool white, double clearance_px) {
   const int width = marker.rgb().width(), height = marker.rgb().height();
   const double size_m = marker.marker().size_m, white_m = marker.white_m();
@@ -137,7 +137,7 @@ std::optional<Level> NoiseOf(const MarkerInImage& marker, bool white, double cle
   return level;
 }
 
-/// Noise of the picture's smoothest blocks over `look`'s, variances; at most 1.
+/// Variance of the smoothest blocks' noise over that of `look`; at most 1.
 double NoiseOfSmoothest(const MarkerInImage& marker, const CameraLook& look) {
   const ImageView<const std::uint8_t> rgb = marker.rgb();
   const int columns = rgb.width() / kBlock, rows = rgb.height() / kBlock;
@@ -179,7 +179,7 @@ double NoiseOfSmoothest(const MarkerInImage& marker, const CameraLook& look) {
 }  // namespace
 
 bool MeasureNoise(const MarkerInImage& marker, double blur_px, CameraLook* look) {
-  // Out of the reach of an edge's compression block, where the marker is large enough for that.
+  // Beyond an edge's compression block, where the marker is large enough.
   const double near_px = 1.0 + 2.5 * blur_px;
   auto white = NoiseOf(marker, true, std::max(near_px, kBlockReach_px));
   auto black = NoiseOf(marker, false, std::max(near_px, kBlockReach_px));
@@ -196,7 +196,7 @@ bool MeasureNoise(const MarkerInImage& marker, double blur_px, CameraLook* look)
   if (!white && !black) return false;
   for (int c = 0; c < 3; ++c) {
     if (!white || !black) {
-      // One level tells how much there is, not how it grows with light: photon noise.
+      // One level shows the amount of noise, not its growth with light: photon noise is assumed.
       const Level& only = white ? *white : *black;
       look->noise_slope[c] = only.light[c] > 0.0 ? only.variance[c] / only.light[c] : 0.0;
       continue;
@@ -208,7 +208,8 @@ bool MeasureNoise(const MarkerInImage& marker, double blur_px, CameraLook* look)
         std::max(0.0, black->variance[c] - look->noise_slope[c] * black->light[c]);
   }
   const Level& brighter = white ? *white : *black;
-  // What compression leaves around the marker's edges is not noise: it is not elsewhere.
+  // Compression artefacts around the marker's edges are not noise: the rest of the image lacks
+  // them.
   const double share = NoiseOfSmoothest(marker, *look);
   for (int c = 0; c < 3; ++c) {
     look->noise_constant[c] *= share;

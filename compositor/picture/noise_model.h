@@ -5,9 +5,9 @@
 
 namespace pleinair::compositor {
 
-/// Measures the noise of the marker's black band and of the white around it, out of the reach of
-/// edges that are `blur_px` wide, and writes the noise's part of `look`. Returns false, and writes
-/// nothing, where neither shows enough pixels.
+/// Measures the noise of the marker's black band and of the white around it. Pixels near edges,
+/// which are `blur_px` wide, are not used. Writes the noise members of `look`. Returns false, and
+/// writes nothing, where neither has enough pixels.
 bool MeasureNoise(const MarkerInImage& marker, double blur_px, CameraLook* look);
 
 }  // namespace pleinair::compositor

@@ -11,14 +11,15 @@
 namespace pleinair::compositor {
 namespace {
 
-constexpr double kCovered = 0.35, kSeen = 0.75;  // Of a square.
-constexpr int kMinCoveredSquares = 3;            // Squares: less is a highlight or a leaf.
-// Colour in bins of the logarithms of red and blue over green.
+constexpr double kCovered = 0.35, kSeen = 0.75;  // Visibility of a square, below and above.
+constexpr int kMinCoveredSquares = 3;            // Fewer squares are a highlight or a leaf.
+// Color bins: logarithms of red and blue over green.
 constexpr int kBins = 24;
 constexpr double kWidestLog = 1.2;
-constexpr int kDarkestSum = 36;  // Codes of the three channels: below, color is noise.
-// As an occluder's color than as the marker's own, and than as what lies around the marker, where
-// the occluder comes from.
+// Sum of the three 8-bit channel values below which color is noise.
+constexpr int kDarkestSum = 36;
+// Minimum likelihood ratio of an occluder color to the marker's colors, and to those of the
+// surroundings, where the occluder comes from.
 constexpr double kLikelier = 3.0, kAsLikely = 0.8;
 constexpr double kMinShareOfColor = 0.002, kNobodys = 0.002;
 constexpr double kMinSeeds = 30.0;
@@ -49,7 +50,7 @@ class Masker {
 
   Image<std::uint8_t> Make() {
     Image<std::uint8_t> mask(rgb_.width(), rgb_.height(), 1);
-    // What of the marker is covered and seen, and the colors of either.
+    // Counts the covered and the visible part of the marker, and the colors of each.
     for (int y = marker_.y0; y <= marker_.y1; ++y) {
       for (int x = marker_.x0; x <= marker_.x1; ++x) {
         const double seen = SeenAt(x, y);
@@ -67,7 +68,7 @@ class Masker {
     const std::vector<std::uint8_t> theirs = OccluderColors();
     if (!theirs.empty()) {
       Grow(theirs, &mask);
-      // Nails, rings and dark folds in the middle of a hand.
+      // Nails, rings and dark folds inside a hand.
       for (int i = 0; i < kClosings; ++i) Average(kClosingReach, true, &mask);
     }
     Average(1, false, &mask);
@@ -80,7 +81,8 @@ class Masker {
     double all = 0.0;
   };
 
-  /// Of the square under a pixel, between the squares' middles; −1 beside the marker.
+  /// Visibility of the square under a pixel, interpolated between the squares' centres; −1 beside
+  /// the marker.
   double SeenAt(int x, int y) const {
     const Vec2 ray = UndistortPixel(camera_, {static_cast<double>(x), static_cast<double>(y)});
     const Vec3 direction = marker_from_camera_.rotation * Vec3{ray.x, ray.y, 1.0};
@@ -121,7 +123,7 @@ class Masker {
     colors->all += 1.0;
   }
 
-  /// A ring around the marker, the arm that comes through it included.
+  /// A ring around the marker, including the arm that crosses it.
   void CountSurroundings() {
     constexpr int kStep = 2;
     const int reach = std::max(marker_.x1 - marker_.x0, marker_.y1 - marker_.y0) / 2;
@@ -135,7 +137,7 @@ class Masker {
     }
   }
 
-  /// Share of the colors in a bin and the eight around it: shading moves a hand's color a little.
+  /// Share of the colors in a bin and its eight neighbours: shading varies a hand's color a little.
   static double NearBy(const Colors& colors, int bin) {
     double sum = 0.0;
     for (int dr = -1; dr <= 1; ++dr) {
@@ -147,7 +149,7 @@ class Masker {
     return sum / (9.0 * colors.all);
   }
 
-  /// By bin, whether a color is the occluder's; empty where it has none of its own.
+  /// Flags the occluder's colors per bin. Empty if it has no color of its own.
   std::vector<std::uint8_t> OccluderColors() const {
     if (covered_.all < kMinSeeds || other_.all < kMinSeeds) return {};
     std::vector<std::uint8_t> theirs(kBins * kBins);
@@ -157,7 +159,7 @@ class Masker {
       const double seen = other_.counts[bin] / other_.all;
       const double around =
           surroundings_.all > 0.0 ? surroundings_.counts[bin] / surroundings_.all : 0.0;
-      // What nobody else has belongs to what it hangs together with: a redder fingertip.
+      // A color that occurs nowhere else belongs to its connected region: a redder fingertip.
       const bool nobodys = seen < kNobodys && around < kNobodys;
       const bool likely = covered >= kMinShareOfColor && covered >= kLikelier * seen &&
                           covered >= kAsLikely * around;
@@ -169,8 +171,8 @@ class Masker {
     return own > kMostlyOwn ? theirs : std::vector<std::uint8_t>{};
   }
 
-  /// Flood from the covered squares through the occluder's colors; on the marker, color decides
-  /// in squares that are partly covered.
+  /// Flood fill from the covered squares through the occluder's colors. In partly covered squares
+  /// of the marker, color decides.
   void Grow(const std::vector<std::uint8_t>& theirs, Image<std::uint8_t>* mask) const {
     std::vector<std::pair<int, int>> open;
     for (const auto& [x, y] : inside_) {
@@ -199,8 +201,8 @@ class Masker {
     }
   }
 
-  /// Means over squares of pixels: as soft as a picture's edges; or, where `fill`, all of
-  /// what lies in the middle of the mask.
+  /// Averages over squares of pixels, which makes edges as soft as those of the image. If `fill`,
+  /// it fills the middle of the mask instead.
   static void Average(int reach, bool fill, Image<std::uint8_t>* mask) {
     Image<std::uint8_t> means(mask->width(), mask->height());
     for (int y = 0; y < mask->height(); ++y) {
