@@ -1,7 +1,7 @@
 #ifndef COMPOSITOR_AERIAL_PERSPECTIVE_GLSL
 #define COMPOSITOR_AERIAL_PERSPECTIVE_GLSL
-// AIRLIGHT: the air between the eye and the real surfaces. Without it there is none, and nothing is
-// drawn of it.
+// AIRLIGHT: includes the airlight between the eye and the real surfaces. Without it there is no
+// airlight.
 
 #include "compositor/shaders/aerial_fog.glsl"
 #include "compositor/shaders/picture_light.glsl"
@@ -9,7 +9,7 @@
 uniform vec3 u_exposure_scale;  // Display-linear value per radiance.
 
 #ifdef AIRLIGHT
-layout(location = 1) out vec4 out_color;  // Added to the picture, covering nothing.
+layout(location = 1) out vec4 out_color;  // Added to the image, with coverage 0.
 
 uniform float u_fog_split_m[kFogSplits];  // FogSplits of compositor/passes/aerial_fog.h.
 uniform vec3 u_fog_optical_depth[kFogSplits];
@@ -24,7 +24,7 @@ FogAir AirUpTo(float distance_m) {
 #endif
 }
 
-// What is added to a picture whose surface's light changes by `ratio`, display-linear.
+// Display-linear light to add to an image whose surface light changes by `ratio`.
 vec3 AirlightOver(vec3 ratio, FogAir air) {
 #ifdef AIRLIGHT
   return AirlightOverShadow(ratio, u_exposure_scale * air.light, PictureLight());

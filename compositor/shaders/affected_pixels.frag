@@ -1,25 +1,26 @@
 #version 450 core
-// What of a pixel is to be shaded: the triangles that its samples show, one for each component of a real
-// surface, with the samples that show that component. The pixel's depth says what may change of it, for
-// the passes that shade: AffectedTriangles::Change, the most of its samples.
+// Classifies a pixel of the real surfaces. Output: one triangle per visible component of a real
+// surface, with the samples that show this component. The depth is the maximum
+// AffectedTriangles::Change of the samples, for the passes that shade.
 
 #include "compositor/shaders/visibility_buffer.glsl"
 
 layout(binding = 0) uniform usampler2DMS u_ids;
-uniform int u_samples;  // A pixel, 4 at most.
+uniform int u_samples;  // Per pixel, 4 at most.
 
 layout(location = 0) out uvec4 out_visible;  // First to last: VisibleTriangle.
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
-  // What is still to be told; 0: nothing, an object, or done.
+  // Remaining numbers; 0: nothing, an object, or done.
   uvec4 left = uvec4(0u);
   for (int i = 0; i < u_samples; ++i) left[i] = texelFetch(u_ids, pixel, i).r;
   left *= uvec4(lessThan(left, uvec4(kObjectBit)));
   uvec4 seen = uvec4(0u), components = uvec4(~0u);
   uint kind = kNothing;
   int found = 0;
-  // Most pixels show one triangle: once through. Tested at its end, see shadow_visibility.glsl.
+  // Most pixels show one triangle and need one iteration. Tested at its end, see
+  // shadow_visibility.glsl.
   do {
     uint id = left.x != 0u ? left.x : left.y != 0u ? left.y : left.z != 0u ? left.z : left.w;
     uvec4 same_id = uvec4(equal(left, uvec4(id)));

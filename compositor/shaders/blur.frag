@@ -1,5 +1,5 @@
 #version 450 core
-// One direction of a separable Gaussian over the two virtual pictures, render pixels.
+// One direction of a separable Gaussian over the two virtual images, render pixels.
 
 layout(binding = 1) uniform sampler2D u_ratio;
 layout(binding = 2) uniform sampler2D u_objects;

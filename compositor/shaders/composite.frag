@@ -1,13 +1,13 @@
 #version 450 core
-// The camera's picture with the virtual objects, one invocation a camera pixel.
+// Composites the virtual objects into the camera image, one invocation per camera pixel.
 //
-// CAMERA_RESPONSE: codes are the camera's own, by table, instead of sRGB.
-// GRAIN: drawn pixels get the noise that the camera would have given them.
+// CAMERA_RESPONSE: pixel values follow the camera's own response, by table, instead of sRGB. GRAIN:
+// drawn pixels receive the camera's noise.
 
 #include "compositor/shaders/srgb_transfer.glsl"
 
-layout(binding = 0) uniform sampler2D u_background;   // Codes / 255, row 0 = top.
-// Mean over a pixel's samples of differential.glsl, 1 where an object covers them. Render picture.
+layout(binding = 0) uniform sampler2D u_background;  // Pixel values / 255, row 0 = top.
+// Mean of differential.glsl over a pixel's samples, 1 where an object covers them. Render image.
 layout(binding = 1) uniform sampler2D u_ratio;
 layout(binding = 2) uniform sampler2D u_objects;      // Premultiplied display-linear, coverage.
 layout(binding = 3) uniform sampler2D u_positions;    // RenderPositions(), texels.
@@ -16,7 +16,8 @@ layout(location = 0) out vec4 out_encoded;
 
 #ifdef CAMERA_RESPONSE
 layout(binding = 4) uniform sampler2D u_light_of_pixel_value;  // 256 texels.
-layout(binding = 5) uniform sampler2D u_pixel_value_of_light;  // Evenly by the square root of light.
+// Evenly spaced in the square root of light.
+layout(binding = 5) uniform sampler2D u_pixel_value_of_light;
 
 vec3 LinearFromEncoded(vec3 encoded) {
   ivec3 code = ivec3(encoded * 255.0 + 0.5);
@@ -38,13 +39,13 @@ vec3 EncodedFromLinear(vec3 light) { return SrgbFromLinear(light); }
 #endif
 
 #ifdef GRAIN
-layout(binding = 6) uniform sampler2D u_grain;  // MakeGrain(): one for all channels, one for each.
+layout(binding = 6) uniform sampler2D u_grain;  // MakeGrain(): one channel common to all, one for each.
 uniform ivec2 u_grain_offset;
 uniform vec3 u_noise_constant;  // Variance of linear light = constant + slope * light.
 uniform vec3 u_noise_slope;
 uniform float u_channel_correlation;
 
-/// What is missing to the noise of `light`, where the noise of `behind` times `kept` is there.
+/// Noise to add for the variance of `light`. The noise of `behind` times `kept` is already there.
 vec3 MissingGrain(ivec2 pixel, vec3 light, vec3 behind, vec3 kept) {
   vec4 grain = texelFetch(u_grain, (pixel + u_grain_offset) % textureSize(u_grain, 0), 0);
   vec3 unit = sqrt(u_channel_correlation) * grain.aaa + sqrt(1.0 - u_channel_correlation) * grain.rgb;
@@ -65,7 +66,7 @@ void main() {
     return;
   }
   vec3 behind = LinearFromEncoded(background.rgb);
-  vec3 kept = max(ratio - object.a, 0.0);  // Nothing is left where the object covers.
+  vec3 kept = max(ratio - object.a, 0.0);  // Zero where the object covers the pixel.
   vec3 light = behind * kept + object.rgb;
 #ifdef GRAIN
   light += MissingGrain(pixel, light, behind, kept);

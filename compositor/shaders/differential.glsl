@@ -1,13 +1,13 @@
 #ifndef COMPOSITOR_DIFFERENTIAL_GLSL
 #define COMPOSITOR_DIFFERENTIAL_GLSL
-// Differential compositing (Debevec 1998, "Rendering Synthetic Objects into Real Scenes", §6), as
-// a ratio so that the real surface's texture is kept: the light that a real surface receives with
-// the virtual objects there over the light without them, per channel.
+// Differential rendering (Debevec 1998, "Rendering Synthetic Objects into Real Scenes", §6), as a
+// ratio so that the real surface's texture is kept. The ratio is the light on a real surface with
+// the virtual objects over the light without them, per channel.
 //
-// ambient_*: sky and bounced light, sun: the unshadowed sun's light on the surface (its cosine
-// included), same unit. visibility_phantoms: what the real surfaces leave of the sun (already in
-// the photograph), visibility_all: what real and virtual ones leave. A virtual object cannot let
-// more sun through, hence the min(): a real shadow is never darkened twice nor lightened.
+// ambient_*: sky and indirect light. sun: the unshadowed sun's light on the surface, including its
+// cosine, same unit. visibility_phantoms: sun visibility past the real surfaces (already in the
+// image). visibility_all: sun visibility past real and virtual surfaces. A virtual object cannot
+// let more sun through, hence the min(): a real shadow is never darkened twice nor lightened.
 vec3 DifferentialRatio(vec3 ambient_with, vec3 ambient_without, vec3 sun, float visibility_all,
                        float visibility_phantoms) {
   float visibility = min(visibility_all, visibility_phantoms);

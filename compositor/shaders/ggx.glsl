@@ -1,7 +1,7 @@
 #ifndef COMPOSITOR_GGX_GLSL
 #define COMPOSITOR_GGX_GLSL
 // Microfacet reflection with the GGX distribution (Walter et al. 2007, "Microfacet Models for
-// Refraction through Rough Surfaces"); the whole after Cook & Torrance 1982.
+// Refraction through Rough Surfaces"). The complete model follows Cook & Torrance 1982.
 
 const float kPi = 3.14159265358979;
 
@@ -26,9 +26,9 @@ vec3 FresnelSchlick(float cosine, vec3 f0) {
   return f0 + (1.0f - f0) * pow(1.0f - cosine, 5.0f);
 }
 
-// Under even light from all sides a surface reflects f0 · x + y of it (Karis 2013, "Real Shading in
-// Unreal Engine 4", second sum), by roughness, 0 to 1 in fifths, and by the square root of n·v, 0 to
-// 1 in eighths: integrals of the functions above.
+// Reflectance under uniform light from all sides is f0 · x + y (Karis 2013, "Real Shading in Unreal
+// Engine 4", second sum). Rows: roughness 0 to 1 in fifths. Columns: square root of n·v, 0 to 1 in
+// eighths. The values are integrals of the functions above.
 const int kReflectedRoughnesses = 6, kReflectedAngles = 9;
 const vec2 kReflected[kReflectedRoughnesses * kReflectedAngles] = {
     {0.0005, 0.9995}, {0.0757, 0.9243}, {0.2758, 0.7242}, {0.5313, 0.4687}, {0.7627, 0.2373},

@@ -1,14 +1,13 @@
 #version 450 core
-// What the virtual objects change of the real surfaces' light in a pixel as shadow_ratio.frag does,
-// where the sun's part in it is known of each triangle: AffectedTriangles::kLinearSky of
-// compositor/surfaces/affected_triangles.h.
-// AIRLIGHT: so far away that the air before the surface counts.
+// Shadow-catcher ratio as in shadow_ratio.frag, for triangles with known sun visibility:
+// AffectedTriangles::kLinearSky of compositor/surfaces/affected_triangles.h. AIRLIGHT: the airlight
+// in front of the surface is noticeable.
 
 #include "compositor/shaders/aerial_perspective.glsl"
 #include "compositor/shaders/linear_shadow_ratio.glsl"
 #include "compositor/shaders/visibility_buffer_layout.glsl"
 
-uniform float u_samples;  // A pixel.
+uniform float u_samples;  // Per pixel.
 uniform vec3 u_eye_m;     // Centre of projection, marker coordinates.
 uniform vec3 u_ray;       // As in visible_surface.glsl.
 uniform vec3 u_ray_x;
@@ -16,8 +15,8 @@ uniform vec3 u_ray_y;
 
 layout(location = 0) out vec4 out_ratio;
 
-layout(binding = 0) uniform usampler2D u_visible;   // Of affected_pixels.frag.
-layout(binding = 1) uniform sampler2D u_linear_ratios;  // kTexelsPerLinearRatio by triangle.
+layout(binding = 0) uniform usampler2D u_visible;  // From affected_pixels.frag.
+layout(binding = 1) uniform sampler2D u_linear_ratios;  // kTexelsPerLinearRatio per triangle.
 
 LinearRatioPoint PlaceOn(uint id) {
   ivec2 at = TexelOfLinearRatio(int(max(id, 1u)) - 1);
@@ -41,7 +40,7 @@ void main() {
     samples += count;
     seen = uvec4(seen.yzw, 0u);
   } while (seen.x != 0u);
-  // The others show what does not change, or objects.
+  // The other samples show unaffected surfaces or objects.
   out_ratio = vec4((ratio + (u_samples - samples)) / u_samples, 1.0);
   WriteAirlight(airlight / u_samples);
 }

@@ -1,17 +1,19 @@
 #ifndef COMPOSITOR_MATERIAL_TABLE_GLSL
 #define COMPOSITOR_MATERIAL_TABLE_GLSL
-// Materials and places of the virtual objects' surfaces as compositor/surfaces/material_table.h lays them out.
+// Materials and transforms of the virtual objects' surfaces, in the layout of
+// compositor/surfaces/material_table.h.
 
 #include "compositor/shaders/visibility_buffer_layout.glsl"
 
 layout(binding = 2) uniform sampler2D u_surfaces;
 
 struct MaterialRecord {
-  vec3 base_color;  // Linear reflectance, before its texture.
+  vec3 base_color;  // Linear reflectance, before the texture.
   float metallic, roughness;
   float dielectric_f0;       // Normal reflectance of the coat; 0: purely diffuse.
-  float base_under_coat;     // What the coat leaves of the base color's light.
-  vec4 row_x, row_y, row_z;  // Marker from where it was lit. Angles stay.
+  float base_under_coat;  // Share of the base color's light that the coat transmits.
+  // Current marker coordinates from those of the baked lighting. Angles stay.
+  vec4 row_x, row_y, row_z;
 };
 
 MaterialRecord RecordOf(int surface) {

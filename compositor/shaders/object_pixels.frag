@@ -1,15 +1,15 @@
 #version 450 core
-// What of a pixel is to be shaded as a virtual object: the triangles that its samples show, one for
-// each piece of surface, with the samples that show that piece. A piece is of one component, bent by no
-// more than kAlike and nowhere farther apart than the pixel reaches: a round body's far side, seen
-// past its near side's edge, is another. The pixel's depth says for the passes that shade whether the
-// sun may shine on any of them (KindOf).
+// Classifies a pixel of the virtual objects. Output: one triangle per visible piece of surface,
+// with the samples that show this piece. A piece belongs to one component. Its normals differ by no
+// more than kAlike, and its points lie within the pixel's reach. A round body's far side, seen past
+// the edge of its near side, is another piece. The depth gives the passes that shade the sun
+// visibility class (KindOf).
 
 #include "compositor/shaders/visible_surface.glsl"
 #include "compositor/shaders/material_table.glsl"
 
 layout(binding = 0) uniform usampler2DMS u_ids;
-uniform int u_samples;  // A pixel, 4 at most.
+uniform int u_samples;  // Per pixel, 4 at most.
 
 layout(location = 0) out uvec4 out_visible;  // First to last: VisibleTriangle.
 
@@ -17,7 +17,7 @@ const float kAlike = 0.9;  // Cosine.
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
-  // What is still to be told; 0: no object, or done.
+  // Remaining numbers; 0: no object, or done.
   uvec4 left = uvec4(0u);
   for (int i = 0; i < u_samples; ++i) left[i] = texelFetch(u_ids, pixel, i).r;
   left *= uvec4(greaterThan(left, uvec4(kObjectBit)));

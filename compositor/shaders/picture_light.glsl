@@ -1,12 +1,12 @@
 #ifndef COMPOSITOR_PICTURE_LIGHT_GLSL
 #define COMPOSITOR_PICTURE_LIGHT_GLSL
-// The camera's picture as light, for what is shaded before it.
+// Linear light of the camera image behind a render pixel.
 
-layout(binding = 2) uniform sampler2D u_background;        // Codes / 255, row 0 = top.
-layout(binding = 3) uniform sampler2D u_camera_positions;  // Of a render pixel, camera texels.
+layout(binding = 2) uniform sampler2D u_background;  // Pixel values / 255, row 0 = top.
+layout(binding = 3) uniform sampler2D u_camera_positions;  // Camera texels, per render pixel.
 layout(binding = 4) uniform sampler2D u_light_of_pixel_value;     // 256 texels.
 
-// Display-linear, where the picture shows this pixel.
+// Display-linear, at this render pixel's position in the image.
 vec3 PictureLight() {
   vec2 at = texelFetch(u_camera_positions, ivec2(gl_FragCoord.xy), 0).xy;
   ivec3 code = ivec3(texture(u_background, at / vec2(textureSize(u_background, 0))).rgb * 255.0 + 0.5);

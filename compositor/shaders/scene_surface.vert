@@ -5,7 +5,7 @@ layout(location = 0) in vec3 in_position;
 layout(location = 1) in vec2 in_uv;
 
 uniform mat4 u_clip_from_marker;
-// Where a model was moved to since its light was made.
+// Movement of a model since its light was baked.
 uniform mat4 u_marker_from_lit = mat4(1.0);
 
 out vec3 v_position_m;

@@ -1,7 +1,7 @@
 #version 450 core
-// One triangle that covers the picture, from gl_VertexID alone.
+// One triangle that covers the image, from gl_VertexID alone.
 
-uniform float u_depth = 0.5;  // Of all its pixels, 0…1.
+uniform float u_depth = 0.5;  // For all of its pixels, 0…1.
 
 void main() {
   vec2 corner = vec2((gl_VertexID << 1) & 2, gl_VertexID & 2);

@@ -1,11 +1,12 @@
 #version 450 core
-// One shadow map in its partition's tint, dark nearest to the sun, nearly black where it is empty.
+// Shows one shadow map in its partition's tint: dark nearest to the sun, nearly black where it is
+// empty.
 #include "compositor/shaders/shadow_tints.glsl"
 layout(binding = 0) uniform sampler2DArray u_maps;
 uniform int u_slice;
-uniform int u_texels;       // A side of the map.
-uniform vec2 u_origin_px;   // Of the tile in the picture.
-uniform float u_texels_px;  // Texels a pixel.
+uniform int u_texels;  // Per side of the map.
+uniform vec2 u_origin_px;  // Origin of the tile in the image.
+uniform float u_texels_px;  // Texels per pixel.
 layout(location = 0) out vec4 out_color;
 
 void main() {

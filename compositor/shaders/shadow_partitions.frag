@@ -1,5 +1,5 @@
 #version 450 core
-// The tint of the partition that a surface is looked up in; white outside all of them.
+// Tint of the shadow map partition of a surface; white outside all partitions.
 #include "compositor/shaders/shadow_tints.glsl"
 #include "shadows/shaders/shadow_visibility.glsl"
 

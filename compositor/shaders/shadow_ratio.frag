@@ -1,9 +1,9 @@
 #version 450 core
-// What the virtual objects change of the real surfaces' light in a pixel, see differential.glsl: the
-// mean over its samples, 1 where an object is in front, each component of a surface
-// (affected_pixels.frag) shaded once. Drawn with SUN_MAY_CHANGE or SKY_CHANGES:
-// compositor/surfaces/affected_triangles.h. Where nothing need be asked of the sun, linear_shadow_ratio.frag.
-// AIRLIGHT: so far away that the air before the surface counts.
+// Shadow-catcher ratio of a pixel (differential.glsl): the mean over its samples, 1 where an object
+// is in front. Each component of a surface (affected_pixels.frag) is shaded once. SUN_MAY_CHANGE or
+// SKY_CHANGES selects the kind of change: compositor/surfaces/affected_triangles.h.
+// linear_shadow_ratio.frag handles triangles that need no shadow lookup. AIRLIGHT: the airlight in
+// front of the surface is noticeable.
 
 #include "compositor/shaders/aerial_perspective.glsl"
 #include "compositor/shaders/differential.glsl"
@@ -13,30 +13,32 @@
 #endif
 #include "shadows/shaders/shadow_visibility.glsl"
 
-uniform float u_samples;        // A pixel.
+uniform float u_samples;  // Per pixel.
 uniform vec3 u_to_sun;          // Unit, marker coordinates.
 uniform vec3 u_sun_normal_lux;  // Linear Rec.709.
 
 layout(location = 0) out vec4 out_ratio;
 
-layout(binding = 0) uniform usampler2D u_visible;  // Of affected_pixels.frag.
+layout(binding = 0) uniform usampler2D u_visible;  // From affected_pixels.frag.
 
 #ifdef SUN_MAY_CHANGE
 #include "compositor/shaders/sun_transmittance_map.glsl"
 
-uniform float u_assumes_unmodelled_shadows;           // 1; 0 where nothing but phantoms shades: each lies in the sun.
-uniform float u_margin_half_m;    // The marker's board lies here: white and black, not the ground.
+uniform float u_assumes_unmodelled_shadows;  // 1; 0 where only phantoms cast shadows.
+// Half of the white margin's edge. There the albedo is not that of the ground.
+uniform float u_margin_half_m;
 
-/// How much of the sun the picture shows on a surface that the model has in the sun: trees and all
-/// that no phantom stands for shade it too, and what is shaded already no virtual shadow darkens
-/// again. Green alone, over about three pixels, so that a surface's grain does not count. From half
-/// the sun on all of it counts: patterns are darker than their mean, too. On the marker's board the
-/// map says it, which the white around the marker and the ground about it fill.
+/// Estimates the sun transmittance from the image, on a surface that the model has in the sun.
+/// Unmodelled geometry such as trees may shade it, and a virtual shadow must not darken shaded
+/// parts again. Only green is used, over about three pixels, to suppress the surface's texture.
+/// From about half of the sun on, all of it counts, because patterns are darker than their mean,
+/// too. On the marker and its white margin the map gives the transmittance. It is filled by the
+/// white around the marker and the ground around it.
 float SunTransmittanceSeen(VisibleSurface surface, int component, float sun, FogAir air) {
   const float kPi = 3.14159265;
   const float kShaded = 0.08, kHalf = 0.35, kLit = 0.70;
   vec3 position_m = surface.position_m;
-  float green_albedo = u_assumes_unmodelled_shadows * ValueOfComponent(component);  // 0: not known.
+  float green_albedo = u_assumes_unmodelled_shadows * ValueOfComponent(component);  // 0: unknown.
   bool on_margin = max(abs(position_m.x), abs(position_m.y)) < u_margin_half_m &&
                   abs(position_m.z) < 0.25 * u_margin_half_m;
   vec2 size = vec2(textureSize(u_background, 0));
@@ -65,7 +67,7 @@ Change ChangeOf(VisibleSurface surface, int component) {
   vec3 sun = max(dot(surface.normal, u_to_sun), 0.0) * u_sun_normal_lux;
   float visibility_phantoms = ShadowVisibility(0, surface.position_m, surface.flat_normal,
                                                surface.step_x, surface.step_y);
-  // Permutations, not tests: Mesa's software renderer runs an `if` whatever its condition.
+  // Permutations, not tests: Mesa's software renderer executes an `if` regardless of its condition.
 #ifdef SUN_MAY_CHANGE
   float visibility_all = ShadowVisibility(1, surface.position_m, surface.flat_normal,
                                           surface.step_x, surface.step_y);
@@ -97,7 +99,7 @@ void main() {
     samples += count;
     seen = uvec4(seen.yzw, 0u);
   } while (seen.x != 0u);
-  // The others show what does not change, or objects.
+  // The other samples show unaffected surfaces or objects.
   out_ratio = vec4((ratio + (u_samples - samples)) / u_samples, 1.0);
   WriteAirlight(airlight / u_samples);
 }

@@ -1,6 +1,6 @@
 #version 450 core
-// The partitions' tints where the camera sees them, to be multiplied into its picture.
-layout(binding = 0) uniform sampler2D u_tints;      // Render picture.
+// The partitions' tints in the camera image, to be multiplied into it.
+layout(binding = 0) uniform sampler2D u_tints;  // Render image.
 layout(binding = 1) uniform sampler2D u_positions;  // RenderPositions(), texels.
 layout(location = 0) out vec4 out_tint;
 

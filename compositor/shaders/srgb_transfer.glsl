@@ -1,6 +1,6 @@
 #ifndef COMPOSITOR_SRGB_TRANSFER_GLSL
 #define COMPOSITOR_SRGB_TRANSFER_GLSL
-// IEC 61966-2-1:1999, twin of base/srgb.h. Compiled as C++ too (tests/compositor).
+// IEC 61966-2-1:1999; must match base/srgb.h. Also compiled as C++ (tests/compositor).
 
 vec3 LinearFromSrgb(vec3 encoded) {
   return mix(pow((encoded + 0.055f) / 1.055f, vec3(2.4f)), encoded / 12.92f,

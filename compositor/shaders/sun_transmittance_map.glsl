@@ -1,7 +1,7 @@
 #ifndef COMPOSITOR_SUN_TRANSMITTANCE_MAP_GLSL
 #define COMPOSITOR_SUN_TRANSMITTANCE_MAP_GLSL
-// Share of the sun that reaches a place past trees and all that no phantom stands for: the map of
-// compositor/light/sun_transmittance_map.h, which lies across the sun's rays.
+// Sun transmittance of unmodelled objects such as trees. The map of
+// compositor/light/sun_transmittance_map.h lies across the sun's rays.
 
 layout(binding = 5) uniform sampler2D u_sun_transmittance;
 uniform vec4 u_sun_transmittance_s;  // The map's coordinates, 0 to 1, from marker coordinates (m, 1).

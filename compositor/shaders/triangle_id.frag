@@ -1,14 +1,14 @@
 #version 450 core
-// Which triangle a sample of the picture shows: its number in a table of
+// Writes the visibility buffer: each sample's triangle number in a table of
 // compositor/surfaces/visibility_buffer.h, from 1 on. 0: nothing that changes.
 //
-// OBJECT: of a virtual object. TEXTURED: with what its textures leave of base color, roughness and
-// metallic, too. ALPHA: only on the samples that its alpha covers.
+// OBJECT: the triangle belongs to a virtual object. TEXTURED: also writes the textures' base color,
+// roughness and metallic. ALPHA: writes only the samples that alpha covers.
 
 #include "compositor/shaders/visibility_buffer_layout.glsl"
 
 uniform int u_first_id;
-uniform int u_step;  // 1; 0 where a whole draw is one number.
+uniform int u_step;  // 1; 0 if a whole draw has one number.
 
 layout(location = 0) out uint out_id;
 
@@ -24,34 +24,35 @@ layout(location = 1) out vec4 out_texel;
 uniform int u_alpha;  // Material::Alpha: 0 ignored, 1 cut out, 2 blended.
 uniform float u_opacity;
 uniform float u_alpha_cutoff;
-uniform int u_samples;  // A pixel, 4 at most.
-uniform int u_surface;  // A number of its own for each surface.
+uniform int u_samples;  // Per pixel, 4 at most.
+uniform int u_surface;  // Unique per surface.
 
-// From 0 to 1, evenly spread over any few pixels side by side (Bayer 1973).
+// Ordered dither from 0 to 1, evenly spread over adjacent pixels (Bayer 1973).
 float Dither(ivec2 pixel) {
   const int kBayer[16] = int[16](0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5);
   return (float(kBayer[(pixel.x & 3) + 4 * (pixel.y & 3)]) + 0.5) / 16.0;
 }
 
-// Any of the samples: another order in each pixel and surface, so that one does not hide the next.
+// Random first sample. The order differs per pixel and surface, so that one surface does not hide
+// the next.
 int FirstSample(ivec2 pixel) {
   uint h = uint(pixel.x) * 0x9E3779B1u + uint(pixel.y) * 0x85EBCA77u + uint(u_surface) * 0xC2B2AE3Du;
   h = (h ^ h >> 15u) * 0x2C1B3C6Du;
   return int(h >> 30u);
 }
 
-// Alpha is asked at each sample, as the mean over what of a pixel is its own, so that holes' edges
-// stay as sharp with distance as those of surfaces. As much of glass is there as samples whose
-// thresholds it exceeds (screen-door transparency, in place of an order). Of holes there is one
-// threshold, but where texels are finer than what a sample stands for, alpha is already how much of
-// that is there.
+// Alpha is sampled at each sample position, as the mean over the sample's share of the pixel. The
+// edges of cut-outs therefore stay as sharp with distance as those of surfaces. Blended surfaces
+// cover as many samples as alpha exceeds thresholds (screen-door transparency, which needs no
+// sorting). Cut-outs have one threshold. If texels are finer than the sample's share, alpha is
+// already a coverage.
 int SamplesCovered() {
-  // Of 4 a pixel, as all renderers have them.
+  // For 4 per pixel, as in all renderers.
   const vec2 kPlaces[4] =
       vec2[4](vec2(0.375, 0.125), vec2(0.875, 0.375), vec2(0.125, 0.625), vec2(0.625, 0.875));
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   vec2 step_x = dFdx(v_uv), step_y = dFdy(v_uv);
-  float side = inversesqrt(float(u_samples));  // Of a sample's share of the pixel.
+  float side = inversesqrt(float(u_samples));  // Side of a sample's share of the pixel.
   float minified =
       clamp(textureQueryLod(u_base_color_texture, v_uv).y + log2(side), 0.0, 1.0);
   float dither = u_alpha == 2 ? Dither(pixel) : 0.5;

@@ -1,10 +1,11 @@
 #version 450 core
-// A virtual object's display-linear color in a pixel: the sum over its samples, each piece of surface
-// (object_pixels.frag) shaded once, and the share of them that it covers. Drawn with NO_SUN where all
-// that a pixel shows is turned away from the sun.
+// Shades the virtual objects of a pixel: display-linear color summed over the samples, and their
+// coverage. Each piece of surface (object_pixels.frag) is shaded once. NO_SUN: everything that the
+// pixel shows faces away from the sun.
 //
-// TEXTURED: triangle_id.frag read textures. GLOSSY: some objects mirror their surroundings; a
-// permutation, not a test, since Mesa's software renderer runs an `if` whatever its condition.
+// TEXTURED: triangle_id.frag sampled textures. GLOSSY: some objects are glossy. This is a
+// permutation, not a test, because Mesa's software renderer executes an `if` regardless of its
+// condition.
 
 #include "compositor/shaders/aerial_fog.glsl"
 #include "compositor/shaders/ggx.glsl"
@@ -16,7 +17,7 @@
 #endif
 #include "shadows/shaders/shadow_visibility.glsl"
 
-uniform float u_samples;         // A pixel.
+uniform float u_samples;  // Per pixel.
 uniform vec3 u_to_sun;           // Unit, marker coordinates.
 uniform vec3 u_sun_normal_lux;   // Linear Rec.709.
 uniform vec3 u_exposure_scale;             // Display-linear value per radiance.
@@ -25,9 +26,9 @@ uniform float u_fog_split_m[kFogSplits];  // FogSplits of compositor/passes/aeri
 uniform vec3 u_fog_optical_depth[kFogSplits];
 uniform vec3 u_fog_inscattered[kFogSplits];
 
-layout(binding = 0) uniform usampler2D u_visible;  // Of object_pixels.frag.
+layout(binding = 0) uniform usampler2D u_visible;  // From object_pixels.frag.
 #ifdef GLOSSY
-layout(binding = 3) uniform sampler2DArray u_environment;  // EnvironmentMap, a layer a roughness.
+layout(binding = 3) uniform sampler2DArray u_environment;  // EnvironmentMap, one layer per roughness.
 #endif
 #ifdef TEXTURED
 #include "compositor/shaders/texel_code.glsl"
@@ -37,7 +38,7 @@ layout(binding = 4) uniform sampler2DMS u_texels;
 layout(location = 0) out vec4 out_color;
 
 #ifdef TEXTURED
-// The material times its textures: the mean of the samples that show the piece.
+// Multiplies the material by its textures: the mean of the samples that show the piece.
 MaterialRecord Textured(MaterialRecord record, vec4 samples) {
   vec3 color = vec3(0.0);
   vec2 coat = vec2(0.0);
@@ -59,17 +60,18 @@ MaterialRecord Textured(MaterialRecord record, vec4 samples) {
 vec3 PrefilteredEnvironment(vec3 direction, float roughness) {
   vec2 uv = vec2(atan(direction.y, direction.x) / (2.0 * kPi) + 0.5,
                  acos(clamp(direction.z, -1.0, 1.0)) / kPi);
-  // Repeated around the horizon, but the zenith must not have the nadir's light.
+  // Repeated around the horizon, but the zenith must not receive the nadir's light.
   float half_row = 0.5 / float(textureSize(u_environment, 0).y);
   uv.y = clamp(uv.y, half_row, 1.0 - half_row);
   float level = roughness * float(textureSize(u_environment, 0).z - 1);
-  // Explicit: the next pixel may show another surface, and at ±π the direction jumps.
+  // Explicit level: the next pixel may show another surface, and the direction jumps at ±π.
   vec3 low = textureLod(u_environment, vec3(uv, floor(level)), 0.0).rgb;
   vec3 high = textureLod(u_environment, vec3(uv, ceil(level)), 0.0).rgb;
   return mix(low, high, fract(level));
 }
 
-// What metals and coats mirror of the sun, `sun` with the surface's cosine in it, and of the rest.
+// Specular reflection of the sun and the environment by metals and coats. `sun` includes the
+// surface's cosine.
 vec3 MirroredRadiance(VisibleSurface surface, MaterialRecord record, vec3 sun) {
   vec3 normal = surface.normal;
   vec3 to_eye = normalize(u_eye_m - surface.position_m);
@@ -84,7 +86,7 @@ vec3 MirroredRadiance(VisibleSurface surface, MaterialRecord record, vec3 sun) {
                    VisibilitySmith(n_dot_v, max(dot(normal, u_to_sun), 1e-4), alpha));
   radiance += specular * sun;
 #endif
-  // Of the sky, phantoms and objects hide as much from the mirrored light as from all that arrives.
+  // Phantoms and objects occlude the reflected sky as much as the whole incident light.
   vec3 open = max(PrefilteredEnvironment(normal, 1.0) * kPi, vec3(1e-6));
   radiance += EnvironmentBrdf(f0, record.roughness, n_dot_v) *
               PrefilteredEnvironment(reflect(-to_eye, normal), record.roughness) *

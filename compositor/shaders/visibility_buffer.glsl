@@ -1,15 +1,16 @@
 #ifndef COMPOSITOR_VISIBILITY_BUFFER_GLSL
 #define COMPOSITOR_VISIBILITY_BUFFER_GLSL
-// Triangles as compositor/surfaces/visibility_buffer.h lays them out.
+// Triangle table in the layout of compositor/surfaces/visibility_buffer.h.
 
 #include "compositor/shaders/visibility_buffer_layout.glsl"
 
 layout(binding = 1) uniform usampler2D u_triangles;  // Vertices; component and kind.
 layout(binding = 6) uniform sampler2D u_vertices;    // Three texels each.
-// By component: of a real surface its green albedo, of an object's the surface's number.
+// Per component: green albedo of a real surface, surface number of an object.
 layout(binding = 7) uniform sampler2D u_component_values;
 
-// From 1 on. Of 0, no triangle, the first: what is fetched for it is not used, but must be there.
+// Numbers start at 1. For 0, no triangle, it returns the first one: the result is unused, but the
+// texel must exist.
 uvec4 TriangleOf(uint id) {
   return texelFetch(u_triangles, TexelOfTriangle(int(max(id, 1u)) - 1), 0);
 }

@@ -1,21 +1,21 @@
 #ifndef COMPOSITOR_VISIBLE_SURFACE_GLSL
 #define COMPOSITOR_VISIBLE_SURFACE_GLSL
-// What a pixel shows of a surface, from its triangle's number: what a rasteriser would hand to
-// a shader, but once for a pixel however many triangles meet in it.
+// Surface attributes at a pixel, from its triangle number. They are those that a rasteriser
+// interpolates, evaluated once per pixel for any number of triangles.
 
 #include "compositor/shaders/plane_hit.glsl"
 #include "compositor/shaders/visibility_buffer.glsl"
 
 uniform vec3 u_eye_m;  // Centre of projection, marker coordinates.
-// Direction of a pixel's ray at gl_FragCoord, not unit: first + x, y times these. Marker coordinates.
+// Ray through gl_FragCoord (x, y): u_ray + x u_ray_x + y u_ray_y. Marker coordinates, not unit.
 uniform vec3 u_ray;
 uniform vec3 u_ray_x;
 uniform vec3 u_ray_y;
 
 struct VisibleSurface {
   vec3 position_m, normal;
-  vec3 flat_normal;     // Of the triangle, on the side of `normal`; unit.
-  vec3 step_x, step_y;  // How far the position moves to the next pixel, metres.
+  vec3 flat_normal;  // Normal of the triangle on the side of `normal`; unit.
+  vec3 step_x, step_y;  // Change of the position to the next pixel, metres.
   vec3 ambient_with, ambient_without;
 };
 
@@ -30,9 +30,9 @@ VisibleSurface VisibleSurfaceOf(BufferVertex a, BufferVertex b, BufferVertex c, 
   seen.step_x = hit.step_x;
   seen.step_y = hit.step_y;
 
-  // Barycentric coordinates. The ray through the pixel's middle may pass beside the triangle that a
-  // sample shows: light is not extrapolated to there, where it could be anything, and the place not
-  // farther than the pixel reaches.
+  // Barycentric coordinates. The ray through the pixel's centre may miss the triangle that a sample
+  // shows. Light is therefore not extrapolated beyond the triangle. The position moves beyond it by
+  // no more than the pixel's reach.
   vec3 from_a = seen.position_m - a.position_m;
   float area = max(dot(across, across), 1e-30);
   float to_b = dot(cross(from_a, ac), across) / area, to_c = dot(cross(ab, from_a), across) / area;
