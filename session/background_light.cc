@@ -14,19 +14,19 @@
 namespace pleinair::session {
 namespace {
 
-// The light is read from so many frames, at least so far apart, as replay does; and again after a
-// while, since clouds pass.
+// Number of frames per light estimate and their minimum interval, as in replay. A new estimate
+// follows after a while, because clouds pass.
 constexpr int kLightFrames = 8;
 constexpr double kBetweenEstimates_s = 0.3, kBetweenMeasurements_s = 60.0;
-// Of lights that stand until the daylight coefficients are there.
+// Rays of the lights that are in use until the daylight coefficients are ready.
 constexpr int kFewRays = 48;
 constexpr std::chrono::milliseconds kLookAround{100};
-// Below everything that a frame waits for.
+// Below the priority of everything that a frame waits for.
 constexpr int kNice = 10;
 
 void LowerPriority() {
-  // Of this thread, and of those that it starts: Linux counts niceness by thread. Where it is
-  // refused, nothing is lost but time.
+  // For this thread and those that it starts: Linux counts niceness per thread. A refusal only
+  // costs time.
   static_cast<void>(setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), kNice));
 }
 
@@ -101,7 +101,7 @@ BackgroundLight::Progress BackgroundLight::progress() const {
 
 void BackgroundLight::Run() {
   LowerPriority();
-  compositor::CoefficientWorker worker;  // Here, because its threads are as patient as this one.
+  compositor::CoefficientWorker worker;  // Here, so that its threads inherit the low priority.
   while (true) {
     Wanted wanted;
     std::optional<Shown> shown;
@@ -114,7 +114,7 @@ void BackgroundLight::Run() {
     }
     TakeCoefficients(worker);
     if (wanted.edit.objects != placed_.objects) {
-      // What cannot be placed stays where it was, and lit as it was.
+      // Objects that cannot be placed keep their last placement and light.
       if (!Place(wanted.edit.objects)) wanted.edit.objects = placed_.objects;
     }
     if (NeedsLight(wanted)) Make(wanted);
@@ -125,7 +125,7 @@ void BackgroundLight::Run() {
   }
 }
 
-/// A solver for the objects at these places.
+/// Builds a solver for these object placements.
 Result<void> BackgroundLight::Place(const std::vector<ObjectPlace>& objects) {
   placed_.objects = objects;
   const std::size_t phantoms = setup_.placed.size() - objects.size();
@@ -138,7 +138,7 @@ Result<void> BackgroundLight::Place(const std::vector<ObjectPlace>& objects) {
   options.max_patches = setup_.light.overrides.max_patches.value_or(options.max_patches);
   PLEINAIR_ASSIGN_OR_RETURN(placed_.solver,
                             compositor::LightSolver::Create(setup_.placed, options));
-  placed_.coefficients.reset();  // They are another scene's.
+  placed_.coefficients.reset();  // They belong to another scene.
   made_.wanted.reset();
   return {};
 }
@@ -150,7 +150,7 @@ bool BackgroundLight::NeedsLight(const Wanted& wanted) const {
   return !IsNearSun(made_.sun, sun);
 }
 
-/// What the user says of sun and sky, where he does, under the sun of a moment.
+/// Applies the user's sky overrides, if any, for the sun at this time.
 void BackgroundLight::UseOverriddenSky(UtcTime time, compositor::SkyState* skies) const {
   const auto given = compositor::OverriddenSky(setup_.scene, setup_.light.overrides,
                                                scene::SunOver(setup_.scene.place_time, time));
@@ -171,12 +171,12 @@ LightingRequest BackgroundLight::LightingRequestFor(const Wanted& wanted) {
     conditions.turbidity = wanted.edit.sky->turbidity;
     conditions.cloud_cover = wanted.edit.sky->cloud_cover;
     auto source = sky::SkySource::Create({sky::SkyModelKind::kAtmosphere, 0}, conditions);
-    // Outside what the sky model takes, the last one stays.
+    // Outside the range of the sky model, the last sky stays.
     if (source) known_.skies = {*std::move(source), {1.0, 1.0, 1.0}};
     known_.skies_of = wanted.edit.sky;
   }
-  // Whether trees shade the ground is no matter of the air. With a heading given as well nothing is
-  // looked at anew (MayEstimate), and what shades it under that one is not known.
+  // Tree shade does not depend on the air. With a given heading there is no new estimate
+  // (MayEstimate), and shade under that heading is unknown.
   if (wanted.edit.sky)
     known_.skies.unmodelled_shadows = wanted.edit.heading_deg || known_.found.unmodelled_shadows;
   return {wanted.time.PlusSeconds(wanted.edit.later_s),
@@ -199,7 +199,7 @@ void BackgroundLight::Make(const Wanted& wanted) {
   shared_.newest = std::move(light);
 }
 
-/// Whether what frames show is the light that the scene is drawn in: not of another time or place.
+/// True if frames show the light in which the scene is drawn, not that of another time or location.
 bool BackgroundLight::MayEstimate(const Wanted& wanted) const {
   return !setup_.scene.phantoms.empty() && wanted.marker_reflectance.size_m > 0.0 &&
          !(wanted.edit.sky && wanted.edit.heading_deg) && wanted.edit.later_s == 0.0 &&
@@ -236,7 +236,7 @@ void BackgroundLight::EstimateLight(const Shown& shown, const Wanted& wanted) {
   shared_.progress.measured = found.measured;
   shared_.progress.frames_in_estimate = 0;
   shared_.next_estimate = shown.time.PlusSeconds(kBetweenMeasurements_s);
-  shared_.shown.reset();  // It came meanwhile, and would begin the next look too early.
+  shared_.shown.reset();  // It arrived meanwhile, and would start the next estimate too early.
 }
 
 void BackgroundLight::WantCoefficients(const Wanted& wanted,
@@ -246,7 +246,7 @@ void BackgroundLight::WantCoefficients(const Wanted& wanted,
   compositor::CoefficientOptions options;
   options.convergence = placed_.convergence;
   options.division = setup_.light.sky_division;
-  // What is being tried out would fill the disk: each place of an object has a file of its own.
+  // Trial edits would fill the disk: each object placement has its own file.
   const bool as_begun = wanted.edit.objects == setup_.edit.objects &&
                         wanted.edit.convergence == setup_.edit.convergence;
   if (as_begun) options.cache = setup_.light.cache;
@@ -254,7 +254,7 @@ void BackgroundLight::WantCoefficients(const Wanted& wanted,
                options);
 }
 
-/// Where new ones are there, of the scene as it stands now.
+/// Uses new coefficients, if there are any for the current scene.
 void BackgroundLight::TakeCoefficients(const compositor::CoefficientWorker& worker) {
   const auto newest = worker.Newest();
   {

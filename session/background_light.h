@@ -24,13 +24,15 @@
 
 namespace pleinair::session {
 
-/// Makes the light of a live session, on threads of its own and at low priority, so that no frame
-/// waits for it: anew when the sun has moved, when the scene is edited, and when frames have told
-/// of sun and sky. The first lights are traced with few rays; meanwhile daylight coefficients are
-/// computed, from which each further light takes a fraction of a second. A moved object begins this
-/// anew; until its next light is there it is drawn with the last. Then the frames are looked at for
-/// the phantoms' shadows, as replay does, and again every minute; LightFilter has what they tell
-/// together.
+/// Computes the light of a live session in background threads at low priority, so that no frame
+/// waits for it.
+///
+/// A new light is computed when the sun has moved, the scene was edited, or frames gave an estimate
+/// of sun and sky. The first lights are traced with few rays. Meanwhile daylight coefficients are
+/// computed; with them each further light takes a fraction of a second. A moved object restarts
+/// this, and is drawn with the last light until its next light is ready. Afterwards the phantoms'
+/// shadows in the frames are used to estimate the light, as in replay, once a minute. LightFilter
+/// combines these estimates.
 class BackgroundLight {
  public:
   struct Setup {
@@ -39,34 +41,35 @@ class BackgroundLight {
     std::vector<compositor::PlacedModel> placed;  ///< Phantoms, then objects.
     LightOptions light;
     SceneEdit edit;
-    compositor::SkyState skies;  ///< As stated.
+    compositor::SkyState skies;  ///< By the scene description.
     UtcTime time;
     CameraResponse response = {};
   };
 
-  /// Makes the first light and starts. Errors: the geometry.
+  /// Computes the first light and starts the thread. Errors: the geometry.
   static Result<std::unique_ptr<BackgroundLight>> Create(Setup setup);
   ~BackgroundLight();
 
-  /// These change what the next light is made for; any thread.
+  /// These change the inputs of the next light; any thread.
   void SetEdit(const SceneEdit& edit);
   void SetTime(UtcTime time);
   void SetMarkerReflectance(const scene::MarkerReflectance& marker_reflectance);
 
-  /// Offers a frame to measure the light in; few are taken.
+  /// Offers a frame for light estimation; only few are used.
   void Show(std::shared_ptr<const devices::Frame> frame,
             const Transform<Camera, Marker>& camera_from_marker, UtcTime time);
 
-  /// The newest light where it was not taken yet, otherwise null.
+  /// Returns the newest light once, otherwise null.
   std::shared_ptr<const BakedLighting> Take();
 
-  /// How the work is going.
+  /// Progress of the background work.
   struct Progress {
     compositor::MeasuredLight measured;
-    double heading_deg = 0.0;     ///< Of the marker, in use.
-    int frames_in_estimate = 0;   ///< Looked at since the last measurement; 0: none is under way.
-    double coefficients = 0.0;    ///< 0…1: share of the daylight coefficients that is computed.
-    bool failed_to_keep = false;  ///< Some could not be written to the cache.
+    double heading_deg = 0.0;  ///< Heading of the marker in use.
+    /// Frames added since the last estimate; 0: no estimate is under way.
+    int frames_in_estimate = 0;
+    double coefficients = 0.0;    ///< Computed share of the daylight coefficients, 0…1.
+    bool failed_to_keep = false;  ///< Some coefficients could not be written to the cache.
   };
   Progress progress() const;
 
@@ -77,7 +80,7 @@ class BackgroundLight {
     SceneEdit edit;
     UtcTime time;
     scene::MarkerReflectance marker_reflectance;
-    /// Of what a light is made for besides the sun's place.
+    /// Compares the inputs of a light, except the sun's position.
     bool operator==(const Wanted& other) const;
   };
   struct Shown {
@@ -98,30 +101,30 @@ class BackgroundLight {
   void UseOverriddenSky(UtcTime time, compositor::SkyState* skies) const;
   bool MayEstimate(const Wanted& wanted) const;
 
-  /// The scene as it is solved now.
+  /// The scene of the current solver.
   struct PlacedScene {
     std::shared_ptr<const compositor::LightSolver> solver{};
     std::vector<ObjectPlace> objects{};
     std::shared_ptr<const compositor::DaylightCoefficients> coefficients{};
     double convergence = 0.0;  // Of the coefficients.
     std::shared_ptr<const compositor::LightSolver>
-        ordered_for{};  // Whose coefficients are ordered.
+        ordered_for{};  // The solver whose coefficients are ordered.
   };
-  /// What is known of heading and skies, by words, edits and frames.
+  /// Heading and skies by description, edits and frames.
   struct KnownLight {
     compositor::SkyState skies{};              // In use.
-    std::optional<SceneEdit::Sky> skies_of{};  // The edit's air that they were made for.
-    compositor::LightFilter filter{};          // Of the looks so far.
-    compositor::SkyState found{};              // Its last conclusion, as the heading is.
+    std::optional<SceneEdit::Sky> skies_of{};  // The edit's air for which they were made.
+    compositor::LightFilter filter{};          // Of all estimates so far.
+    compositor::SkyState found{};              // Skies of the last estimate, as is the heading.
     Radians heading{};
-    std::unique_ptr<compositor::LightEstimator> estimator{};  // Of the look under way.
+    std::unique_ptr<compositor::LightEstimator> estimator{};  // For the estimate under way.
   };
-  /// What the last light was made for.
+  /// Inputs of the last light.
   struct MadeLight {
     std::optional<Wanted> wanted;
     sky::SunPosition sun;
   };
-  /// What the thread and its callers hand each other.
+  /// State that the thread and its callers share.
   struct Shared {
     bool stop = false;
     Wanted wanted{};
@@ -131,17 +134,17 @@ class BackgroundLight {
     Progress progress{};
   };
 
-  Setup setup_;  // Its places of models follow the edits.
+  Setup setup_;  // Its model positions follow the edits.
   std::thread thread_;
 
-  // Of the thread alone.
+  // Used by the thread alone.
   PlacedScene placed_;
   KnownLight known_;
   MadeLight made_;
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;
-  Shared shared_;  // Under the mutex.
+  Shared shared_;  // Protected by the mutex.
 };
 
 }  // namespace pleinair::session

@@ -6,8 +6,8 @@
 namespace pleinair::session {
 namespace {
 
-// The sun moves its own width in about two minutes; the light among surfaces is made anew
-// after half of that, the sun itself moves in every frame.
+// The sun moves by its own width in about two minutes. The indirect illumination is computed again
+// after half of that; the sun itself moves in every frame.
 constexpr double kSunStep = 0.25 * kRadiansPerDegree;
 
 std::vector<compositor::LitMesh> LightAmongSurfaces(const LightingRequest& request,

@@ -19,21 +19,22 @@
 
 namespace pleinair::session {
 
-/// All that the light of a moment is made from; nothing in it changes meanwhile.
+/// Inputs of the light at one moment. None of them changes during the computation.
 struct LightingRequest {
   UtcTime time;
   scene::PlaceTime place;
   scene::MarkerDescription marker;
   compositor::SkyState skies;
   std::shared_ptr<const compositor::LightSolver> solver;
-  /// Of the solver's scene: the light of any moment in milliseconds. Null: rays are traced.
+  /// Coefficients of the solver's scene, which give the light of any moment in milliseconds. Null:
+  /// rays are traced.
   std::shared_ptr<const compositor::DaylightCoefficients> coefficients;
   scene::MarkerReflectance marker_reflectance;
   CameraResponse response;
 };
 
-/// Sun, sky and the light among surfaces at one moment, and the meter that knows what light it
-/// leaves on the marker. Neither copied nor moved: its parts refer to each other.
+/// Baked lighting at one moment: sun, sky, indirect illumination, and the light meter with the
+/// predicted light on the marker. Neither copied nor moved, because its parts refer to each other.
 struct BakedLighting {
   explicit BakedLighting(const LightingRequest& request);
   BakedLighting(const BakedLighting&) = delete;
@@ -46,12 +47,12 @@ struct BakedLighting {
   compositor::ScaledSky daylight;
   std::vector<compositor::LitMesh> meshes;
   LinearRgb from_below;                               ///< LightSolver::RadianceFromBelow().
-  std::optional<compositor::MarkerLightMeter> meter;  ///< Where the order knows a print.
-  std::vector<ObjectPlace> objects;  ///< Where they stood; empty: as the scene describes them.
+  std::optional<compositor::MarkerLightMeter> meter;  ///< Empty where the request has no marker.
+  std::vector<ObjectPlace> objects;  ///< Positions of the objects; empty: as described.
 };
 
-/// Whether the sun is still where its light among surfaces was made for, so that this need not be
-/// made anew.
+/// True if the sun is still near the position of the baked indirect illumination, so that this need
+/// not be computed again.
 bool IsNearSun(const sky::SunPosition& made_for, const sky::SunPosition& now);
 
 }  // namespace pleinair::session

@@ -12,7 +12,7 @@ namespace {
 
 using compositor::CameraLook;
 
-// Measured in every so many frames; medians over so many measurements.
+// Interval of measurements in frames, and number of measurements in a median.
 constexpr int kStep = 5;
 constexpr std::size_t kWindow = 5;
 

@@ -13,11 +13,12 @@
 
 namespace pleinair::session {
 
-/// Blur and grain of a camera's frames, measured on the marker now and then: both change slowly.
+/// Measures blur and noise of a camera's frames on the marker in regular intervals: both change
+/// slowly.
 class CameraLookFilter {
  public:
-  /// The camera's look after this frame where it was measured anew, the median of the last
-  /// measurements; nothing: it is as it was.
+  /// Returns the median of the last measurements if this frame was measured. Returns nothing if the
+  /// look is unchanged.
   std::optional<compositor::CameraLook> Update(ImageView<const std::uint8_t> rgb,
                                                const CameraModel& camera,
                                                const Transform<Camera, Marker>& camera_from_marker,
@@ -25,7 +26,7 @@ class CameraLookFilter {
                                                const CameraResponse& response);
 
  private:
-  int frames_to_next_ = 0;  // Until it is measured again.
+  int frames_to_next_ = 0;  // Until the next measurement.
   std::deque<compositor::CameraLook> recent_;
 };
 

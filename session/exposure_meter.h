@@ -14,20 +14,21 @@
 
 namespace pleinair::session {
 
-/// The camera's exposure scale (display-linear value per cd/m² and channel), read from the marker
-/// in frame after frame.
+/// Estimates the camera's exposure scale (display-linear value per cd/m² and channel) from the
+/// marker in each frame.
 class ExposureMeter {
  public:
-  /// How the marker is lit from the next frame on; nothing: it cannot be read.
+  /// Sets the meter with the marker's light for the next frames; nothing: the marker cannot be
+  /// measured.
   void SetMeter(std::optional<compositor::MarkerLightMeter> meter) { meter_ = std::move(meter); }
 
-  /// What the exposure scale is taken for as long as no frame could be read.
+  /// Sets the exposure scale that is used until a frame gives an estimate.
   void SetGuess(LinearRgb exposure_scale) { guess_ = exposure_scale; }
 
-  /// Once a frame could be read its exposure scale is kept while this holds.
+  /// While locked, the exposure scale stays the same once a frame has given an estimate.
   void SetLocked(bool locked) { locked_ = locked; }
 
-  /// Reads a frame and writes what is known to `summary`. `marker_shade`: SkyState::marker_shade.
+  /// Measures a frame and writes the result to `summary`. `marker_shade`: SkyState::marker_shade.
   void Read(ImageView<const std::uint8_t> rgb, const CameraModel& camera,
             const Transform<Camera, Marker>& camera_from_marker, LinearRgb marker_shade,
             LightSummary* summary);

@@ -13,7 +13,7 @@
 
 namespace pleinair::session {
 
-/// Reads a recording's frames on a thread of its own, a few ahead of who asks for them.
+/// Prefetches frames of a recording on a background thread.
 class FramePrefetcher {
  public:
   explicit FramePrefetcher(std::unique_ptr<devices::FrameSource> source)
@@ -31,7 +31,7 @@ class FramePrefetcher {
     return *std::move(next);
   }
 
-  /// Reads no more. Gives the times that reading took.
+  /// Stops reading. Returns the stage times of reading.
   const StageTimes& Finish() {
     read_.Close();
     if (thread_.joinable()) thread_.join();
@@ -51,7 +51,7 @@ class FramePrefetcher {
   }
 
   std::unique_ptr<devices::FrameSource> source_;
-  StageTimes times_;  // Of the thread, until it has ended.
+  StageTimes times_;  // Owned by the thread until it has ended.
   BoundedQueue<Result<std::optional<devices::Frame>>> read_{kAhead, WhenFull::kWait};
   std::thread thread_;  // Last: it uses the others.
 };

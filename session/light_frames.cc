@@ -7,9 +7,9 @@
 namespace pleinair::session {
 namespace {
 
-// The light is read from so many frames; more hardly show other surfaces.
+// Number of frames for light estimation. More hardly show other surfaces.
 constexpr std::size_t kLightFrames = 8;
-// Within half a minute about the middle the sun moves an eighth of a degree.
+// Within half a minute around the middle the sun moves an eighth of a degree.
 constexpr std::int64_t kOneSunNs = 30'000'000'000;
 
 }  // namespace

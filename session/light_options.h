@@ -7,18 +7,19 @@
 
 namespace pleinair::session {
 
-/// What a user says of the light and of the camera's picture, of a recording or live.
+/// User options for the light and the camera image, for recordings and live sessions.
 struct LightOptions {
   compositor::LightOverrides overrides;
-  bool match_look = true;                 ///< Drawn pixels get the frames' blur and grain.
-  bool hands_in_front = false;            ///< What covers the marker is before the virtual objects.
-  std::filesystem::path camera_response;  ///< Overrides the scene's; empty: as the scene says.
-  std::filesystem::path cache;            ///< Folder for daylight coefficients; empty: without.
-  int sky_division = 1;       ///< Of Tregenza's patches: compositor::CoefficientOptions.
-  double convergence = 0.01;  ///< The same.
+  bool match_look = true;  ///< Drawn pixels receive the frames' blur and noise.
+  /// Objects that cover the marker are in front of the virtual objects.
+  bool hands_in_front = false;
+  std::filesystem::path camera_response;  ///< Overrides the scene's; empty: as in the scene.
+  std::filesystem::path cache;            ///< Folder for daylight coefficients; empty: no cache.
+  int sky_division = 1;  ///< Subdivision of Tregenza's patches: compositor::CoefficientOptions.
+  double convergence = 0.01;  ///< compositor::CoefficientOptions.
 };
 
-/// A scene with the heading and the camera's response that the user gives.
+/// Returns the scene with the heading and the camera response of the options.
 scene::SceneDescription WithGiven(const scene::SceneDescription& scene,
                                   const LightOptions& options);
 

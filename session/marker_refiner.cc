@@ -21,7 +21,7 @@ void MarkerRefiner::Measure(std::span<Seen> frames) {
   }
   std::vector<Alignments> alignments(frames.size());
   ParallelFor(frames.size(), 0, [&](std::size_t i) { alignments[i] = Align(frames[i]); });
-  // Each pose leans on the one before.
+  // Each pose starts from the one before.
   for (std::size_t i = 0; i < frames.size(); ++i) {
     for (std::size_t k = 0; k < frames[i].observations.size(); ++k) {
       tracker::MarkerObservation& observation = frames[i].observations[k];
@@ -58,7 +58,7 @@ void MarkerRefiner::TakeOver(const std::optional<tracker::MarkerAlignment>& alig
         camera_, alignment->corners_px, alignment->corner_covariance_px2, Metres(marker_size_m_),
         marker.seen ? &marker.last_rotation : nullptr);
     if (pose) {
-      // The share that is seen stays the tracker's: its blocks tell it better where much is hidden.
+      // The visible share stays the tracker's: its blocks measure it better where much is hidden.
       detection.corners_px = alignment->corners_px;
       observation->pose = *pose;
     }

@@ -16,25 +16,24 @@
 
 namespace pleinair::session {
 
-/// Measures S-G markers once more, from every pixel of their prints at once (tracker/
-/// print_alignment.h). That takes some 20 ms a marker, which a recording has and a camera has not,
-/// and leaves a third of the error that the tracker's own fit by blocks has. AprilTags have been
-/// measured so already.
+/// Refines the poses of S-G markers by an alignment of all marker pixels
+/// (tracker/refinement/marker_alignment.h). This takes some 20 ms per marker, which a recording
+/// allows and a live camera does not. The error is a third of that of the tracker's block-wise fit.
+/// AprilTags need no refinement, because the tracker already measures them this way.
 class MarkerRefiner {
  public:
   MarkerRefiner(const CameraModel& camera, double marker_size_m)
       : camera_(camera), marker_size_m_(marker_size_m) {}
 
-  /// What the tracker saw in a frame.
+  /// Tracking result of a frame.
   struct Seen {
     ImageView<const std::uint8_t> grey;
     std::vector<tracker::MarkerObservation> observations;
   };
 
-  /// Gives what the tracker saw better corners and poses; frames come in order, and several at once
-  /// are aligned on as many threads as there are processors, with the same results. Where a print
-  /// does not bear out the alignment, since too little of it is seen, its observation stays as it
-  /// is.
+  /// Refines corners and poses of the observations; frames must come in order. Several frames are
+  /// aligned in parallel, one thread per processor, with the same results. If too little of the
+  /// marker is visible to confirm the alignment, its observation stays unchanged.
   void Measure(std::span<Seen> frames);
   std::vector<tracker::MarkerObservation> Measure(
       ImageView<const std::uint8_t> grey, std::vector<tracker::MarkerObservation> observations);

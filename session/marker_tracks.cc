@@ -6,13 +6,13 @@
 namespace pleinair::session {
 namespace {
 
-// Where the other planar solution is at least so likely the pictures themselves hardly tell the two
-// apart, and where the camera was a moment ago tells more.
+// Minimum ratio at which the image hardly separates the two planar solutions. The camera's last
+// pose is then more reliable.
 constexpr double kAmbiguousRatio = 0.05;
-// A last pose older than this says nothing of the next one.
+// A last pose older than this does not predict the next one.
 constexpr std::int64_t kMemoryNs = 500'000'000;
 
-/// How far apart two poses are: metres, with a radian counted as the distance to the marker.
+/// Distance of two poses in metres. A radian counts as the distance to the marker.
 double PoseDistance(const Transform<Camera, Marker>& a, const Transform<Camera, Marker>& b) {
   return Norm(a.translation_m - b.translation_m) +
          RotationAngle(a.rotation, b.rotation) * Norm(b.translation_m);

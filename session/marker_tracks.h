@@ -14,7 +14,7 @@
 
 namespace pleinair::session {
 
-/// Family and number of a marker; files are named "tag36h11_0" after it.
+/// Family and number of a marker. File names use the form "tag36h11_0".
 struct MarkerName {
   std::string family;
   int id = 0;
@@ -22,48 +22,48 @@ struct MarkerName {
   std::string ToString() const { return family + "_" + std::to_string(id); }
 };
 
-/// Whether a scene that declares this may stand on that marker.
+/// True if this marker may be the reference marker of a scene with this declaration.
 bool MayBeReferenceMarker(const MarkerName& marker, const scene::MarkerDescription& declared);
 
-/// What is kept of one sighting of one marker: bounded, whatever the picture's size.
+/// Observation of one marker in one frame. Its size is bounded for any image size.
 struct Observation {
   std::int64_t frame_index = 0;
   std::int64_t timestamp_ns = 0;  ///< Since the recording's start.
   Transform<Camera, Marker> camera_from_marker;
   double reprojection_rms_px = 0.0;
   double ambiguity_ratio = 0.0;   ///< Near 1: two planar poses fit equally well.
-  double visible_fraction = 1.0;  ///< Share of the print that was seen, 0…1.
-  tracker::DetectionPath path = tracker::DetectionPath::kFast;  ///< How it was found.
-  /// Squares a side of the print, and which of them are seen, 0…255; empty where unknown.
+  double visible_fraction = 1.0;  ///< Visible share of the marker, 0…1.
+  tracker::DetectionPath path = tracker::DetectionPath::kFast;  ///< Detection method.
+  /// Squares per side of the marker, and their visibility, 0…255; empty where unknown.
   int visibility_side = 0;
   std::vector<std::uint8_t> visibility{};
 };
 
-/// What is known of a recording's markers across its frames: which one reference markers the scene
-/// and where the camera stood in each frame.
+/// Observations of a recording's markers across its frames. They determine the reference marker and
+/// the camera trajectory.
 class MarkerTracks {
  public:
   explicit MarkerTracks(const scene::MarkerDescription& declared) : declared_(declared) {}
 
-  /// Adds the sightings of one frame; frames come in order. Where a marker is seen more than once,
-  /// or its planar pose is ambiguous, what lies nearest to its last pose counts.
+  /// Adds the observations of one frame; frames must come in order. If a marker has several
+  /// observations or an ambiguous planar pose, the pose nearest to its last one counts.
   void AddFrame(std::int64_t frame_index, std::int64_t timestamp_ns,
                 const std::vector<tracker::MarkerObservation>& marker_observations);
 
-  /// Forgets all but the last `observations` of each marker: for sessions without an end.
+  /// Keeps only the last `observations` of each marker, for sessions without an end.
   void ForgetAllBut(std::size_t observations);
 
-  /// Of the markers that have the family and the number that the scene declares, or any where it
-  /// does not say, the one that is seen most (the first by name of equals); nothing where there is
-  /// none.
+  /// The most observed marker with the family and number that the scene declares, or of all markers
+  /// where it declares none. Equal counts: the first by name. Returns nothing where there is no
+  /// such marker.
   std::optional<MarkerName> ReferenceMarker() const;
 
-  /// All that was seen of a marker, in order of frames.
+  /// All observations of a marker, in order of frames.
   const std::vector<Observation>& TrackOf(const MarkerName& marker) const;
   const std::map<MarkerName, std::vector<Observation>>& tracks() const { return tracks_; }
 
   std::int64_t frames() const { return frames_; }
-  /// Frames in which some marker was seen twice or more.
+  /// Frames with two or more observations of one marker.
   std::int64_t frames_with_duplicates() const { return frames_with_duplicates_; }
 
  private:

@@ -31,7 +31,7 @@ Result<std::unique_ptr<Pipeline>> Pipeline::Create(const CameraModel& camera,
   PLEINAIR_ASSIGN_OR_RETURN(const tracker::TrackerOptions tracking, TrackingOf(given));
   auto tracker = tracker::Tracker::Create(camera, tracking);
   if (!tracker) {
-    // What it refuses is what the scene says of the marker.
+    // Its errors concern the marker in the scene description.
     Error error = std::move(tracker).error();
     if (error.where.empty()) error.where = given.file.string();
     return tl::make_unexpected(std::move(error));

@@ -114,9 +114,9 @@ class Pipeline {
   /// before. Compose() does so for the marker of its pose.
   bool MeterLightOn(const MarkerName& marker);
 
-  /// Whether the colour image of a frame has the size of composed images.
+  /// Whether the color image of a frame has the size of composed images.
   bool HasOutputSize(const devices::Frame& frame) const;
-  /// Resizes the colour image of a frame to the size of composed images.
+  /// Resizes the color image of a frame to the size of composed images.
   void Resize(devices::Frame* frame) const;
 
   /// Draws the objects with the light of `time` into an image of the size of composed images.

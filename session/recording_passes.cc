@@ -13,7 +13,7 @@
 namespace pleinair::session {
 namespace {
 
-// Frames whose prints are measured at once: enough for all processors, few enough for memory.
+// Frames whose marker poses are measured at once: enough for all processors, few enough for memory.
 constexpr std::size_t kMeasuredTogether = 8;
 
 /// Progress and stage times of one pass, with or without a monitor.
@@ -33,7 +33,8 @@ class Pass {
   StageTimes& times_;
 };
 
-/// A frame's moment must be one that UtcTime reaches; some films' stamps run for centuries.
+/// Checks that UtcTime can represent a frame's time; some recordings' time stamps run for
+/// centuries.
 Result<void> CheckMoment(const Pipeline& pipeline, const std::string& recording,
                          const devices::Frame& frame) {
   std::int64_t moment_ns = 0;
@@ -46,7 +47,7 @@ Result<void> CheckMoment(const Pipeline& pipeline, const std::string& recording,
                     "mend the scene's time, or the recording's frame rate or time stamps");
 }
 
-/// Measures found frames and hands them on.
+/// Measures found frames and passes them on.
 Result<void> MeasureTogether(Pipeline& pipeline, std::vector<FoundFrame> found,
                              const TrackedFrameCallback& take, StageTimes* times) {
   StageTimes together;
@@ -91,9 +92,9 @@ Result<void> TrackRecording(Pipeline& pipeline, devices::Recording recording,
   const std::optional<std::int64_t> count = frames.FrameCount();
   std::int64_t done = 0;
   std::vector<FoundFrame> found;
-  StageTimes measuring_times;  // Of the thread that measures, as long as it does.
-  // Measuring takes all processors, finding one: while some frames are measured the next are
-  // searched. Last: it uses the others.
+  StageTimes measuring_times;  // Used by the measuring thread while it runs.
+  // Measuring uses all processors, finding uses one. While some frames are measured, the next ones
+  // are searched. Last: it uses the others.
   std::future<Result<void>> measuring;
   const auto finish_measuring = [&]() -> Result<void> {
     return measuring.valid() ? measuring.get() : Result<void>();

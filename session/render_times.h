@@ -4,8 +4,8 @@ namespace pleinair::session {
 
 /// Milliseconds spent on composing a frame, by stage.
 struct RenderTimes {
-  double light_ms = 0.0;    ///< Sun, sky, light among surfaces; nearly always 0.
-  double meter_ms = 0.0;    ///< Reading the marker.
+  double light_ms = 0.0;    ///< Sun, sky and indirect illumination; nearly always 0.
+  double meter_ms = 0.0;    ///< Exposure estimate from the marker.
   double compose_ms = 0.0;  ///< Drawing and compositing.
 };
 

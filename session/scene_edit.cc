@@ -61,7 +61,7 @@ scene::SceneDescription WithEdit(const scene::SceneDescription& scene, const Sce
 }
 
 SceneEdit::Sky DescribedAir(const scene::SceneDescription& scene) {
-  // As sky/daylight.h has it.
+  // As in sky/daylight.h.
   constexpr double kHazyTurbidity = 3.2, kPartlyCloudyCover = 0.6;
   SceneEdit::Sky air{sky::kDefaultTurbidity, 0.0};
   switch (scene.cloudiness) {

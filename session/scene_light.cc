@@ -47,7 +47,7 @@ void SceneLight::Override(const scene::SceneDescription& scene, const sky::SunPo
   const auto given = compositor::OverriddenSky(scene, options_.overrides, sun);
   if (!given) return;
   measured->sun_source = compositor::MeasuredLight::Source::kOverride;
-  // What lies in the shade of trees was looked for under this sky.
+  // Tree shade was measured under this sky.
   skies_.source = given->skies;
   skies_.scale = given->sky_radiance_scale;
 }

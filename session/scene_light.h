@@ -31,27 +31,27 @@ class SceneLight {
              const scene::SceneDescription& scene, const LightOptions& options);
 
   /// Adds a frame to the estimate of the light. All frames of an estimate share one position of the
-  /// sun: that at `time` of the first. `scene` has the stated or overriding heading.
+  /// sun: that at `time` of the first. `scene` has the described or overriding heading.
   void Observe(ImageView<const std::uint8_t> rgb, const CameraModel& camera,
                const Transform<Camera, Marker>& camera_from_marker, UtcTime time,
                const scene::SceneDescription& scene,
                const scene::MarkerReflectance& marker_reflectance, const CameraResponse& response);
 
-  /// Estimates the light from the frames added, and uses its skies from now on. Nothing if no frame
-  /// was added.
+  /// Estimates the light from the frames added, and uses its skies from now on. Returns nothing if
+  /// no frame was added.
   std::optional<compositor::LightEstimate> Conclude();
 
-  /// Replaces the skies by those that the user states, and notes it in `measured`. Call before the
-  /// first illumination is computed.
+  /// Replaces the skies by those of the user's overrides, and reports this in `measured`. Call
+  /// before the first illumination is computed.
   void Override(const scene::SceneDescription& scene, const sky::SunPosition& sun,
                 compositor::MeasuredLight* measured);
 
   /// The daylight coefficients of the scene: traced on the first call, or read from the cache.
-  /// `progress` gets the share of the work that is done, 0…1; it may be empty.
+  /// `progress` receives the finished share of the work, 0…1; it may be empty.
   std::shared_ptr<const compositor::DaylightCoefficients> Coefficients(
       const scene::MarkerDescription& marker, const compositor::CoefficientProgress& progress);
 
-  /// Whether coefficients were computed for the cache which could not be written there.
+  /// True if coefficients could not be written to the cache.
   bool FailedToKeep() const { return coefficients_ && !coefficients_->kept; }
 
   /// The input for computing the illumination at `time`.
@@ -59,7 +59,7 @@ class SceneLight {
                           const scene::MarkerReflectance& marker_reflectance,
                           const CameraResponse& response) const;
 
-  /// Whether no illumination is in use, or one that was computed here for another position of the
+  /// True if no illumination is in use, or one that was computed here for another position of the
   /// sun.
   bool IsStale(const sky::SunPosition& sun) const;
 
@@ -79,7 +79,7 @@ class SceneLight {
   LightOptions options_;
   compositor::SkyState skies_;
   std::shared_ptr<const compositor::DaylightCoefficients> coefficients_;
-  std::unique_ptr<compositor::LightEstimator> estimator_;  // Of the frames so far.
+  std::unique_ptr<compositor::LightEstimator> estimator_;  // For the frames so far.
   std::shared_ptr<const BakedLighting> in_use_;
   bool made_elsewhere_ = false;
 };

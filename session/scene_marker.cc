@@ -14,13 +14,13 @@
 namespace pleinair::session {
 namespace {
 
-/// What a marker is that nobody has named: one of ours, or the tag that most people have at hand.
+/// Families of a marker without a declared family: ours, or the tag that most people have at hand.
 constexpr const char* kUsualTagFamily = "tag36h11";
 
-/// Edge of the white board where nobody measured it, over the black square's.
+/// Default edge of the white margin over that of the black square.
 constexpr double kUsualBoard = 1.25;
 
-/// How many of the outermost rings of the square whose corners are reported are black all round.
+/// Number of outermost rings that are completely black, within the square of the reported corners.
 int BlackRings(const tracker::MarkerPattern& pattern) {
   const int first = (pattern.modules - pattern.edge_modules) / 2;
   const auto is_black = [&](int ring) {
@@ -78,7 +78,7 @@ scene::MarkerReflectance MarkerReflectanceOf(const scene::MarkerDescription& des
   marker_reflectance.albedo_black = described.albedo_black;
   marker_reflectance.albedo_white = described.albedo_white;
   if (const auto pattern = PatternOf(marker)) {
-    // Families whose square is white outside have no ring; the meter sees that for itself.
+    // Families whose square is white outside have no black ring; the meter detects this itself.
     marker_reflectance.black_band_m =
         described.size_m * std::max(1, BlackRings(*pattern)) / pattern->edge_modules;
   }

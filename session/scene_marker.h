@@ -15,22 +15,22 @@ namespace pleinair::session {
 /// Family of the S-G markers.
 inline constexpr const char* kSgFamily = "sg";
 
-/// How to look for the marker that a scene describes in consecutive frames. Where it names no
-/// family, S-G markers and AprilTag's tag36h11 are looked for; a number that it names is the only
-/// one in use; a target is all that is looked for. Errors: a version of the print that this program
-/// does not know, a target's file that cannot be read.
+/// Tracker options for the marker that a scene describes, in consecutive frames. A target, if
+/// given, is the only marker searched for. Otherwise a given number is the only one in use. Without
+/// a family, S-G markers and AprilTag's tag36h11 are searched for. Errors: an unknown version of
+/// the marker pattern, an unreadable target file.
 Result<tracker::TrackerOptions> TrackingOf(const scene::SceneDescription& scene);
 
-/// What the print of a marker looks like; null where the family is not one of ours.
+/// Bit pattern of a marker; null for families other than ours.
 std::shared_ptr<const tracker::MarkerPattern> PatternOf(const MarkerName& marker);
 
-/// The print as a light meter wants to know it: sizes and reflectances as the scene states them,
-/// and the black band as wide as it is in this marker's print.
+/// Marker reflectance for the light meter. Sizes and reflectances are those of the scene, the width
+/// of the black band is that of this marker's pattern.
 scene::MarkerReflectance MarkerReflectanceOf(const scene::MarkerDescription& described,
                                              const MarkerName& marker);
 
-/// Which part of the print was seen, for what is to be put before the virtual objects; without
-/// squares where the tracker cannot tell (AprilTags).
+/// Visible part of the marker, for objects in front of the virtual ones. Without squares where the
+/// tracker cannot measure it (AprilTags).
 compositor::MarkerVisibility VisibilityOf(const scene::MarkerDescription& described,
                                           const MarkerName& marker, const Observation& seen);
 

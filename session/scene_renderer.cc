@@ -17,8 +17,8 @@
 namespace pleinair::session {
 namespace {
 
-// Where no marker could be read, the exposure scale is guessed so that white paper on the ground
-// shows as this display-linear value.
+// Without an exposure estimate, white paper on the ground is assumed to have this display-linear
+// value.
 constexpr double kGuessedWhite = 0.8;
 
 using Clock = std::chrono::steady_clock;
@@ -176,14 +176,14 @@ void SceneRenderer::LetGo() {
   if (composer_) composer_->LetGo();
 }
 
-/// Draws the objects where they stand now, lit as they were where their light was made.
+/// Draws the objects at their current placement, with the light of their baked placement.
 void SceneRenderer::MoveObjects() {
   const BakedLighting* lit = light_->in_use();
   if (lit == nullptr || lit->objects.empty()) return;
   for (std::size_t i = 0; i < lit->objects.size(); ++i) {
     const std::size_t model = scene_.phantoms.size() + i;
     const ObjectPlace& place = lit->objects[i];
-    // The inverse of a rotation times a scale.
+    // Inverse of a rotation times a scale.
     Mat3 back = LinearOf(place).Transposed();
     for (double& element : back.m) element /= place.scale * place.scale;
     const Mat3 moved = placed_[model].linear * back;

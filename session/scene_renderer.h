@@ -26,79 +26,77 @@
 
 namespace pleinair::session {
 
-/// Everything that happens to a frame once the marker's pose is known: the day's light, the
-/// camera's exposure from the marker, the composite. Keeps what it learns for the next frame.
+/// Renders a frame with a known marker pose: estimates light and exposure, and composes the image.
+/// Keeps its estimates for the next frame.
 class SceneRenderer {
  public:
   ~SceneRenderer();
 
   /// Loads the scene's models and prepares their light. Without virtual objects nothing is drawn
-  /// and no OpenGL is needed.
-  /// With a cache the light among surfaces comes from daylight coefficients that are kept there:
-  /// slow once, then some milliseconds for any moment. `scene`: with what the light
-  /// options give of it (WithGiven()).
+  /// and no OpenGL is needed. With a cache, the indirect illumination comes from stored daylight
+  /// coefficients. These are slow to compute once, then give any moment's light in some
+  /// milliseconds. `scene` must include the light options (WithGiven()).
   static Result<std::unique_ptr<SceneRenderer>> Create(const CameraModel& camera,
                                                        const scene::SceneDescription& scene,
                                                        const compositor::ComposerOptions& options,
                                                        const LightOptions& light = {});
 
-  /// Whether coefficients were computed for the cache which could not be written there.
+  /// True if coefficients could not be written to the cache.
   bool FailedToKeepLight() const { return light_ && light_->FailedToKeep(); }
 
-  /// Which print the frames show, before the first is rendered: it is the light meter. With light
-  /// that is made elsewhere it counts from the next on.
+  /// Sets the marker that serves as light meter. Call before the first frame is rendered. With
+  /// light that is computed elsewhere, it applies from the next light on.
   void SetMarkerReflectance(const scene::MarkerReflectance& marker_reflectance);
 
-  /// Whether frames can tell more of the light than the scene and the user do: at least whether
-  /// anything but phantoms shades the ground.
+  /// True if frames can improve on the scene and the overrides. At the least they show whether
+  /// unmodelled geometry shades the ground.
   bool CanMeasureLight() const;
 
-  /// Looks at a frame for the phantoms' own shadows, before the first is rendered. All the frames
-  /// that are looked at share one sun: that of `time` of the first.
+  /// Adds a frame to the light estimate, before the first frame is rendered. All these frames share
+  /// one sun position: that at `time` of the first.
   void ObserveLight(ImageView<const std::uint8_t> rgb,
                     const Transform<Camera, Marker>& camera_from_marker, UtcTime time);
 
-  /// Draws conclusions from the frames looked at: heading, sun and sky from now on.
+  /// Estimates heading, sun and sky from the added frames, and uses them from now on.
   void EstimateLight();
 
-  /// The order for the light of a moment as the scene has it now. Not where there is nothing to
-  /// draw.
+  /// Inputs of the light at `time` for the current scene. Call only if there are objects to draw.
   LightingRequest MakeLightingRequest(UtcTime time) const;
 
   /// The daylight coefficients of the scene: traced on the first call, or read from the cache.
-  /// `progress` is called with the share of the work that is done, 0…1; it may be empty. Call only
-  /// where the scene has virtual objects.
+  /// `progress` receives the finished share of the work, 0…1; it may be empty. Call only if the
+  /// scene has virtual objects.
   std::shared_ptr<const compositor::DaylightCoefficients> Coefficients(
       const compositor::CoefficientProgress& progress);
 
-  /// Makes the light of a moment that Render() would make for its first frame.
+  /// Computes the light that Render() would compute for its first frame.
   Result<void> PrepareLight(UtcTime time);
 
-  /// Takes a light over that was made elsewhere; from then on Render() only moves the sun and
-  /// leaves new light to others.
+  /// Uses a light that was computed elsewhere. From then on Render() only moves the sun and
+  /// computes no light.
   Result<void> UseLight(std::shared_ptr<const BakedLighting> light);
 
-  /// Changes the scene: at once what is cheap (place, time, heading, drawing, where objects
-  /// stand), with the next light the rest.
+  /// Changes the scene. Location, time, heading, drawing options and object placement apply at
+  /// once, the rest with the next light.
   Result<void> Edit(const SceneEdit& edit);
 
-  /// Of the camera, as the scene has it.
+  /// Response of the camera, as in the scene.
   const CameraResponse& response() const { return response_; }
 
-  /// Lets another thread draw from now on.
+  /// Releases the OpenGL context, so that another thread can draw.
   void LetGo();
 
-  /// Whether there is anything to draw.
+  /// True if there are objects to draw.
   bool DrawsObjects() const { return composer_ != nullptr; }
-  /// Samples a pixel that objects' edges have; nothing where there is nothing to draw.
+  /// Samples per pixel at objects' edges; nothing if there are no objects to draw.
   std::optional<int> samples() const {
     return composer_ ? std::optional(composer_->samples()) : std::nullopt;
   }
-  /// Phantoms, then objects, as they stand.
+  /// Phantoms, then objects, at their current placement.
   const std::vector<compositor::PlacedModel>& placed() const { return placed_; }
 
-  /// The frame with the virtual objects as they stand at `time`. What covers the print, as `cover`
-  /// has it, is before them.
+  /// Returns the frame with the virtual objects in the light of `time`. Objects that cover the
+  /// marker, by `cover`, are in front of the virtual objects.
   Result<RgbImage> Render(ImageView<const std::uint8_t> rgb,
                           const Transform<Camera, Marker>& camera_from_marker, UtcTime time,
                           const compositor::MarkerVisibility& cover = {});
@@ -108,10 +106,10 @@ class SceneRenderer {
   const RenderTimes& times() const { return times_; }
 
  private:
-  /// What edits change besides the scene.
+  /// Changes by edits, apart from the scene.
   struct Edited {
-    double later_s = 0.0;  // Added to the moment of each frame.
-    bool heading = false;  // Stated by an edit: measured ones no longer count.
+    double later_s = 0.0;  // Added to the time of each frame.
+    bool heading = false;  // An edit set the heading: estimated ones no longer apply.
   };
 
   SceneRenderer(const CameraModel& camera, const scene::SceneDescription& scene);
@@ -129,17 +127,17 @@ class SceneRenderer {
   scene::SceneDescription scene_;
   scene::MarkerReflectance marker_reflectance_;
   std::vector<compositor::PlacedModel> placed_;
-  // Nothing of these two where there is nothing to draw.
+  // Both empty if there are no objects to draw.
   std::optional<SceneLight> light_;
   std::unique_ptr<compositor::Composer> composer_;
   ExposureMeter exposure_;
-  std::optional<CameraLookFilter> look_;  // Nothing: drawn pixels stay sharp and clean.
+  std::optional<CameraLookFilter> look_;  // Empty: drawn pixels stay sharp and clean.
   Edited edited_;
   LightSummary summary_;
   RenderTimes times_;
 };
 
-/// A scene's model, loaded and placed in marker coordinates. Errors as compositor::LoadModel.
+/// Loads a scene's model and places it in marker coordinates. Errors as compositor::LoadModel.
 Result<compositor::PlacedModel> PlaceModel(const scene::ModelReference& reference, bool is_phantom);
 
 }  // namespace pleinair::session
