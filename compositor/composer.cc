@@ -32,7 +32,7 @@ namespace pleinair::compositor {
 namespace {
 
 constexpr double kWarpedSupersampling = 1.5;
-// Half a code of 8 bits at black, sRGB: less light of the air changes no picture.
+// Half of an 8-bit step at black, sRGB. Less airlight changes no image.
 constexpr double kNoticeableAir = 0.5 / 255.0 / 12.92;
 
 glm::vec3 ToGlm(Vec3 v) { return {v.x, v.y, v.z}; }
@@ -40,15 +40,15 @@ glm::vec3 ToGlm(LinearRgb c) { return {c.r, c.g, c.b}; }
 
 static_assert(std::tuple_size_v<decltype(ComposerOptions::fog)> == shadows::kMaxPartitions);
 
-/// What a frame is drawn into, for a size of the picture.
+/// Render targets for one image size.
 struct Canvas {
   RenderCamera camera;
   RenderTargets targets;
   CameraPicture picture;
-  std::optional<ShadowDebugView> debug_view;  // Made when needed.
+  std::optional<ShadowDebugView> debug_view;  // Created on first use.
 };
 
-/// Light of the day that frames are drawn with.
+/// Daylight of the frames.
 struct SunAndSky {
   gl::GlTexture environment;
   AerialFog air;
@@ -56,7 +56,7 @@ struct SunAndSky {
   LinearRgb sun_normal_lux;
 };
 
-/// How much of the sun's light reaches what is in view, as the pictures show it.
+/// Sun transmittance of unmodelled objects in view.
 struct SunlightInView {
   std::shared_ptr<const SunTransmittanceMap> transmittance;
   gl::GlTexture texture;
@@ -65,8 +65,8 @@ struct SunlightInView {
 struct Passes {
   ShadowRatioPass ratio;
   ObjectPass objects;
-  // With shadows of one step of the sun, and of two that fade into one another, without and with
-  // haze; made when needed.
+  // Created on first use. First index: one step of the sun, or two that fade into one another.
+  // Second index: without and with airlight.
   std::array<std::array<std::optional<SurfacePrograms>, 2>, 2> programs;
 };
 
@@ -76,7 +76,7 @@ class GlComposer : public Composer {
                                                 const std::vector<PlacedModel>& scene,
                                                 const ComposerOptions& options);
 
-  // What was made with the context goes with it.
+  // The members' GL objects need the context for their destruction.
   ~GlComposer() override { static_cast<void>(context_.MakeCurrent()); }
 
   Result<void> SetOptions(const ComposerOptions& options) override;
@@ -110,7 +110,7 @@ class GlComposer : public Composer {
   Result<void> SetRenderSize(const ComposerOptions& options);
   shadows::ShadowMapOptions MapOptions(const ComposerOptions& options) const;
   Result<void> MakeShadows(const shadows::ShadowMapOptions& options);
-  /// The programs for the shadow maps as they are and the air that a frame has.
+  /// Programs for the current shadow maps and the frame's airlight.
   Result<const SurfacePrograms*> ProgramsFor(const FrameUniforms& frame);
   Result<void> SortSurfaces();
   Result<void> DrawScene(const SurfacePrograms& programs, const shadows::View& view,
@@ -121,7 +121,7 @@ class GlComposer : public Composer {
   FogSplits FogBeforeObjects(const shadows::View& view, const glm::dvec3& eye_m) const;
   Result<void> DrawDebugView(const shadows::View& view);
 
-  gl::EglContext context_;  // First: GL objects go before it.
+  gl::EglContext context_;  // First, so that it outlives the GL objects.
   CameraModel camera_;
   ComposerOptions options_;
   Canvas canvas_;
@@ -158,7 +158,7 @@ Result<std::unique_ptr<Composer>> GlComposer::Make(const CameraModel& camera,
   return composer;
 }
 
-/// How many pixels are drawn, and what they are drawn into.
+/// Sets the number of render pixels and creates the render targets.
 Result<void> GlComposer::SetRenderSize(const ComposerOptions& options) {
   const double supersampling = options.supersampling > 0.0 ? options.supersampling
                                : camera_.HasDistortion()   ? kWarpedSupersampling
@@ -190,7 +190,7 @@ Result<void> GlComposer::SetOptions(const ComposerOptions& options) {
   if (options.supersampling != options_.supersampling || options.response != options_.response) {
     PLEINAIR_RETURN_IF_ERROR(SetRenderSize(options));
   }
-  // Another size of the picture mostly asks for the same maps: what they hold stays.
+  // Another image size mostly needs the same maps, whose content stays valid.
   const shadows::ShadowMapOptions maps = MapOptions(options);
   const bool other_shaders = maps.method != shadows_.options().method ||
                              maps.sun_disc_filter != shadows_.options().sun_disc_filter ||
@@ -227,7 +227,7 @@ Result<void> GlComposer::SetLight(const std::vector<LitMesh>& lit, const sky::Sk
   SetSun(day, marker_from_world);
   sky_.air = AerialFog(day, marker_from_world);
   PLEINAIR_RETURN_IF_ERROR(surfaces_.SetLit(lit));
-  if (!surfaces_.materials().HasGloss()) return {};  // Nothing looks it up.
+  if (!surfaces_.materials().HasGloss()) return {};  // No program samples it.
   const EnvironmentMap map = BuildEnvironmentMap(day, marker_from_world, from_below);
   for (int level = 0; level < EnvironmentMap::kLevels; ++level) {
     sky_.environment.UploadLayer(level, GL_RGB, GL_FLOAT, map.levels[level].data());
@@ -250,7 +250,7 @@ Result<void> GlComposer::SetSunTransmittance(
   return {};
 }
 
-/// Of an empty map: one texel, all of the sun.
+/// An empty map becomes one texel with all of the sun.
 Result<void> GlComposer::UploadSunlight(const SunTransmittanceMap& sun_transmittance) {
   const bool empty = sun_transmittance.share.empty();
   PLEINAIR_ASSIGN_OR_RETURN(sunlight_.texture,
@@ -272,7 +272,7 @@ FogSplits GlComposer::FogBeforeObjects(const shadows::View& view, const glm::dve
       options_.fog);
 }
 
-/// Over the picture just composed.
+/// Draws over the composed image.
 Result<void> GlComposer::DrawDebugView(const shadows::View& view) {
   const shadows::ShadowMaps& maps = shadows_.maps();
   if (!canvas_.debug_view) {
@@ -287,10 +287,11 @@ Result<void> GlComposer::DrawDebugView(const shadows::View& view) {
   return {};
 }
 
-/// By what the sun may change, its shadow maps being as they are to be drawn.
+/// Classifies triangles by the sun's possible change. The shadow maps must be up to date.
 Result<void> GlComposer::SortSurfaces() {
   SunOnPhantoms sun;
-  // Where the picture is asked how much of the sun there is, the sky's light, too, counts by that.
+  // Where sunlight is measured in the image, it also affects how much a change of sky light
+  // matters. The sun then counts on all triangles.
   sun.whole = unmodelled_.assume_unmodelled ||
               (sunlight_.transmittance && !sunlight_.transmittance->share.empty());
   if (HasSun()) {
@@ -305,7 +306,7 @@ Result<void> GlComposer::DrawScene(const SurfacePrograms& programs, const shadow
                                    const FrameUniforms& frame) {
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
-  // Open surfaces come as two, one a side. Clockwise, because the picture's rows go down.
+  // Open surfaces have one triangle per side. Clockwise, because image rows run downwards.
   glEnable(GL_CULL_FACE);
   glFrontFace(GL_CW);
   passes_.ratio.DrawSurfaces(canvas_.targets, surfaces_, frame);
@@ -320,7 +321,7 @@ Result<void> GlComposer::DrawScene(const SurfacePrograms& programs, const shadow
   return {};
 }
 
-/// Of surfaces that are sorted.
+/// Requires classified surfaces.
 FrameUniforms GlComposer::FrameOf(const shadows::View& view,
                                   const Transform<Camera, Marker>& camera_from_marker,
                                   LinearRgb exposure_scale) const {

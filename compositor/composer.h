@@ -19,9 +19,9 @@
 
 namespace pleinair::compositor {
 
-/// Draws the virtual objects of a scene into camera pictures: hidden by phantoms, lit by sun and
-/// sky, casting shadows on themselves and on the real surfaces that phantoms stand for. OpenGL 4.5
-/// without a window; one thread at a time.
+/// Draws the virtual objects of a scene into camera images. Phantoms hide the objects, sun and sky
+/// light them. The objects cast shadows on themselves and on the real surfaces that phantoms
+/// represent. Uses OpenGL 4.5 without a window, from one thread at a time.
 class Composer {
  public:
   /// Errors: no OpenGL 4.5 (system), shaders that do not compile.
@@ -30,48 +30,51 @@ class Composer {
                                                   const ComposerOptions& options);
   virtual ~Composer() = default;
 
-  /// Draws by other options from now on; builds anew only what they change. Errors as Create().
+  /// Uses other options for the next images; rebuilds only what they change. Errors as Create().
   virtual Result<void> SetOptions(const ComposerOptions& options) = 0;
 
-  /// Moves a placed model from where it stood when the light was made: x' = linear x +
-  /// translation. The light on it and around it stays, until SetLight().
+  /// Moves a placed model relative to its position in the baked lighting: x' = linear x +
+  /// translation. The light on it and around it stays the same until SetLight().
   virtual void MoveModel(int placed_model, const Mat3& linear, Vec3 translation_m) = 0;
 
-  /// Samples a rendered pixel that edges have: 4, or what the renderer gives where that is less.
+  /// Samples per rendered pixel at edges: 4, or the renderer's maximum if that is lower.
   virtual int samples() const = 0;
 
-  /// Lets another thread draw from now on.
+  /// Releases the context, so that another thread can draw.
   virtual void LetGo() = 0;
 
-  /// The light from now on. `lit` is what a LightSolver made of the same scene and daylight, and
-  /// `from_below` its RadianceFromBelow(), which glossy surfaces mirror below the horizon.
+  /// Sets the light of the next images. `lit` is a LightSolver's result for the same scene and
+  /// daylight. `from_below` is its RadianceFromBelow(), which glossy surfaces mirror below the
+  /// horizon.
   virtual Result<void> SetLight(const std::vector<LitMesh>& lit, const sky::SkyModel& daylight,
                                 const Mat3& marker_from_world, LinearRgb from_below) = 0;
 
-  /// Moves the sun itself, between two calls of SetLight: shadows follow it without jumps, while
-  /// the light among surfaces, which costs more, stays.
+  /// Moves the sun between two calls of SetLight(). Shadows follow it without jumps. The indirect
+  /// illumination, which costs more, stays the same.
   virtual void SetSun(const sky::SkyModel& daylight, const Mat3& marker_from_world) = 0;
 
-  /// Edge of the white board that the marker is printed on, where no phantom's color counts.
+  /// Sets the edge of the marker's white margin, where no phantom's color applies.
   virtual void SetMarkerMargin(double board_size_m) = 0;
 
-  /// Whether what no phantom stands for, trees say, may shade what the phantoms leave in the sun
-  /// (the default): then pictures are asked how much of it is there, and only that is taken away.
-  /// Where nothing does, asking costs: dark joints and edges look a little shaded.
+  /// If true (the default), assume that unmodelled objects such as trees may shade sunlit phantoms.
+  /// The sunlight that is present is then measured in each image, and only that is removed. If
+  /// nothing shades them, the measurement costs accuracy: dark joints and edges look slightly
+  /// shaded.
   virtual void AssumeUnmodelledShadows(bool look) = 0;
 
-  /// How much of the sun what no phantom stands for leaves to the virtual objects; null: all of it,
-  /// as at first. Errors: no memory.
+  /// Sets the unmodelled objects' sun transmittance towards the virtual objects; null, the default:
+  /// all of the sun. Errors: no memory.
   virtual Result<void> SetSunTransmittance(
       const std::shared_ptr<const SunTransmittanceMap>& sun_transmittance) = 0;
 
-  /// Blur and grain that drawn pixels get from now on, those of the camera's own; nothing: as
-  /// sharp and clean as they are drawn. Blur that the drawing has anyway (half a pixel's width) is
-  /// not added again, and noise below two steps of 8 bits is left out.
+  /// Sets the blur and noise of the camera, which drawn pixels receive. Without a look, drawn
+  /// pixels stay sharp and clean. Blur of the rendering itself (half a pixel's width) is not added
+  /// again. Noise below two steps of 8 bits is omitted.
   virtual Result<void> SetCameraLook(const std::optional<CameraLook>& look) = 0;
 
-  /// The picture with the virtual objects in it. `gain`: display-linear value per radiance and
-  /// channel (ExposureEstimate). Pixels that no virtual thing touches keep their bytes.
+  /// Returns the image with the virtual objects in it. `exposure_scale`: display-linear value per
+  /// radiance and channel (ExposureEstimate). Pixels that no virtual object affects keep their
+  /// bytes.
   virtual Result<RgbImage> Compose(ImageView<const std::uint8_t> rgb,
                                    const Transform<Camera, Marker>& camera_from_marker,
                                    LinearRgb exposure_scale) = 0;
