@@ -41,9 +41,9 @@ Result<Json> ParseJson(std::string_view bytes, const std::string& name) {
       if (static_cast<unsigned char>(c) < 0x20) c = ' ';
     }
     const bool cut_short = what.find("unexpected end of input") != std::string::npos;
-    return InputError(name, "is not whole JSON: " + what,
-                      cut_short ? "the file is cut short: get a whole copy of it"
-                                : "mend the file at that place");
+    return InputError(
+        name, "is not whole JSON: " + what,
+        cut_short ? "the file is cut short: get a whole copy of it" : "correct the file there");
   }
 }
 

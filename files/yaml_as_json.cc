@@ -89,7 +89,7 @@ Result<Json> ParseYaml(std::string_view bytes, const std::string& name) {
     return json;
   } catch (const std::exception& error) {
     return InputError(name, "is not whole YAML: " + std::string(error.what()),
-                      "mend the file at that place, or get a whole copy of it");
+                      "correct the file there, or get a whole copy of it");
   }
 }
 

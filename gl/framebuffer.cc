@@ -45,7 +45,7 @@ Result<GlFramebuffer> GlFramebuffer::Create(const FramebufferAttachments& attach
   const GLenum status = glCheckNamedFramebufferStatus(id, GL_DRAW_FRAMEBUFFER);
   if (status != GL_FRAMEBUFFER_COMPLETE) {
     return SystemError("OpenGL",
-                       "the renderer cannot draw into this combination of pictures (status " +
+                       "the renderer cannot draw into this combination of images (status " +
                            std::to_string(status) + ")");
   }
   return framebuffer;

@@ -22,7 +22,7 @@ Result<void> CheckTarget(const MarkerFacts& facts, const std::string& name) {
   const bool is_picture = facts.family.value_or(kFamily) == kFamily;
   if (!facts.target) {
     if (!facts.family || !is_picture) return {};
-    return InputError(name, "has a picture for a marker and does not say which",
+    return InputError(name, "has a picture target as its marker but does not name it",
                       "add marker.target, a file that `pleinair target` made");
   }
   if (facts.target->empty()) {
@@ -204,7 +204,7 @@ Result<void> CheckModelsExist(const SceneDescription& scene) {
     return InputError(
         scene.file.string(),
         std::string("names the ") + what + " " + named.string() + ", which is not there",
-        "put the file there or mend the name in the scene");
+        "put the file there or correct the name in the scene");
   };
   if (!scene.camera_response.empty()) {
     PLEINAIR_RETURN_IF_ERROR(check("camera response", scene.camera_response));

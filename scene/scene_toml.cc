@@ -297,7 +297,7 @@ Result<SceneFacts> ParseSceneToml(std::string_view bytes, const std::string& nam
     const toml::parse_error& error = parsed.error();
     return InputError(name + ":" + std::to_string(error.source().begin.line),
                       "is not TOML: " + std::string(error.description()),
-                      "mend that line, or get a whole copy of the file");
+                      "correct that line, or get a whole copy of the file");
   }
   return ReadScene(Table(parsed.table(), name));
 }

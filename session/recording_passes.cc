@@ -44,7 +44,7 @@ Result<void> CheckMoment(const Pipeline& pipeline, const std::string& recording,
   }
   return InputError(recording,
                     "frame " + std::to_string(frame.index) + " lies beyond the years 1678 to 2261",
-                    "mend the scene's time, or the recording's frame rate or time stamps");
+                    "correct the scene's time, or the recording's frame rate or time stamps");
 }
 
 /// Measures found frames and passes them on.
@@ -78,7 +78,7 @@ const std::vector<Observation>& PathOf(const Pipeline& pipeline) {
 void AddTimes(const ComposedFrame& composed, StageTimes* times) {
   if (!composed.light) return;
   if (composed.times.light_ms > 1.0) times->Add("light", composed.times.light_ms);
-  times->Add("meter", composed.times.meter_ms);
+  times->Add("estimate exposure", composed.times.meter_ms);
   times->Add("compose", composed.times.compose_ms);
 }
 
@@ -146,14 +146,14 @@ Result<void> EstimateLight(Pipeline& pipeline, devices::Recording recording,
     ++next;
     ++done;
     Resize(pipeline, &*frame, &pass.times());
-    pass.times().Measure("look at light", [&] {
+    pass.times().Measure("observe light", [&] {
       pipeline.renderer().ObserveLight(frame->rgb.view(), at.camera_from_marker,
                                        pipeline.MomentOf(frame->timestamp_ns));
       return 0;
     });
   }
   PLEINAIR_RETURN_IF_ERROR(pass.Report(done, count));
-  pass.times().Measure("settle light", [&] {
+  pass.times().Measure("estimate light", [&] {
     pipeline.renderer().EstimateLight();
     return 0;
   });

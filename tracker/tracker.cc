@@ -36,12 +36,12 @@ class DetectingTracker final : public Tracker {
   Result<UnmeasuredMarkers> Find(ImageView<const std::uint8_t> grey) override {
     if (grey.width() != camera_.width || grey.height() != camera_.height) {
       return InputError("",
-                        "the picture is " + SizeText(grey.width(), grey.height()) +
+                        "the image is " + SizeText(grey.width(), grey.height()) +
                             " but its camera " + SizeText(camera_.width, camera_.height),
                         "use the calibration of this camera at this resolution");
     }
     if (grey.channels() != 1) {
-      return InputError("", "the picture has " + std::to_string(grey.channels()) + " channels",
+      return InputError("", "the image has " + std::to_string(grey.channels()) + " channels",
                         "the tracker wants grey");
     }
     UnmeasuredMarkers found;

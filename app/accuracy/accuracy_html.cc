@@ -213,9 +213,8 @@ std::string Histograms(const RunSummary& summary,
 
 std::string Maps(const RunSummary& summary) {
   std::string html =
-      "<h2>Where in the picture</h2>\n<p class=\"lead\">Median error of corners by "
-      "where they lie, px; full colour is four times the median of "
-      "all cells.</p>\n<div class=\"charts\">";
+      "<h2>Where in the image</h2>\n<p class=\"lead\">Median error of corners by where they lie, "
+      "px; full colour is four times the median of all cells.</p>\n<div class=\"charts\">";
   for (const accuracy::ErrorMap& map : summary.maps) {
     std::vector<double> seen;
     for (const double value : map.median_px) {
@@ -231,18 +230,18 @@ std::string PeerTable(const AccuracyReport& report) {
   const RunSummary& summary = report.summary;
   std::string unread;
   for (const UnreadFilm& film : UnreadFilms(report)) {
-    unread += fmt::format("<li>{}: its marker is no print that {} reads.</li>\n",
+    unread += fmt::format("<li>{}: {} cannot read its marker.</li>\n",
                           files::EscapeMarkup(film.film), film.peer);
   }
   if (!unread.empty()) unread = "<ul class=\"warnings\">\n" + unread + "</ul>\n";
   if (summary.peers.empty()) return unread.empty() ? "" : "<h2>Against others</h2>\n" + unread;
   std::string html =
       "<h2>Against others</h2>\n<p class=\"lead\">The same scenes, each detector with its own "
-      "print; of recordings all with the one that is there. Ratios ours over theirs with 95 % "
-      "bootstrap intervals (of errors: medians over the "
-      "markers that both hit); p: McNemar's exact test.</p>\n<table><tr><th>sweep</th><th>peer</th>"
-      "<th>markers</th><th>both</th><th>only ours</th><th>only theirs</th><th>p</th>"
-      "<th>rate</th><th>corner error</th><th>rotation error</th><th>false, ours/theirs</th></tr>\n";
+      "marker; in recordings all with the marker that is there. Ratios ours over theirs with 95 % "
+      "bootstrap intervals (of errors: medians over the markers that both hit); p: McNemar's exact "
+      "test.</p>\n<table><tr><th>sweep</th><th>peer</th><th>markers</th><th>both</th><th>only "
+      "ours</th><th>only theirs</th><th>p</th><th>rate</th><th>corner error</th><th>rotation "
+      "error</th><th>false, ours/theirs</th></tr>\n";
   for (const accuracy::PeerSummary& peer : summary.peers) {
     html += fmt::format(
         "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{:.2g}</td>"
@@ -277,13 +276,12 @@ std::string FilmTable(const RunSummary& summary) {
   if (summary.films.empty()) return {};
   std::string html =
       "<h2>Films</h2>\n<p class=\"lead\">Absolute and relative trajectory errors as the TUM RGB-D "
-      "benchmark has them (Sturm et al. 2012); unaligned: in the marker's own frame. Lost: how "
-      "often the marker was there and then not found; told: the detector said "
-      "so.</p>\n<table><tr><th>film</th><th>detector</th>"
-      "<th>found</th><th>tracks</th><th>median length</th><th>longest</th><th>lost</th>"
-      "<th>of them told</th><th>found again</th><th>longest gap</th><th>step jitter, "
-      "px</th><th>ATE, mm</th><th>unaligned, mm</th><th>RPE, mm</th>"
-      "<th>RPE, °</th></tr>\n";
+      "benchmark defines them (Sturm et al. 2012); unaligned: in the marker's own frame. Lost: how "
+      "often the marker was there and then not found; reported: the detector reported the "
+      "loss.</p>\n<table><tr><th>film</th><th>detector</th><th>found</th><th>tracks</th><th>median "
+      "length</th><th>longest</th><th>lost</th><th>of them reported</th><th>found "
+      "again</th><th>longest gap</th><th>step jitter, px</th><th>ATE, mm</th><th>unaligned, "
+      "mm</th><th>RPE, mm</th><th>RPE, °</th></tr>\n";
   for (const accuracy::FilmSummary& film : summary.films) {
     html += fmt::format(
         "<tr><td>{}</td><td>{}</td><td>{} of {}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>"
@@ -331,8 +329,8 @@ std::string AmbiguityChart(const RunSummary& summary) {
     series.back().high.push_back(bin.rate.high);
   }
   return "<h2>Ambiguity</h2>\n<p class=\"lead\">How often the other solution of the planar pose "
-         "was the better one, by the ratio of likelihoods that says how ambiguous the pose "
-         "is: below 0.001 it is certain.</p>\n"
+         "was the better one, by the likelihood ratio, which measures how ambiguous the pose is: "
+         "below 0.001 it is certain.</p>\n"
          "<div class=\"charts\">" +
          exports::LevelChartSvg("Wrong solution chosen", "ambiguity ratio", levels, series, 0.6) +
          "</div>\n" + AmbiguityTable(summary);

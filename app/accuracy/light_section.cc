@@ -56,12 +56,11 @@ std::string Figures(const LightPicture& picture) {
 std::string LightSection(const AccuracyReport& report) {
   if (report.pictures.empty()) return {};
   std::string html =
-      "<h2>Light</h2>\n<p class=\"lead\">Composed key frames against true pictures, as "
-      "<code>pleinair "
-      "compare</code> has it: mean CIEDE2000 over the virtual object, its shadow, both with 25 "
-      "pixels "
-      "around them, everything; small: where the mean lies with 95 % by Student's t over the key "
-      "frames.</p>\n<div class=\"wide\"><table><tr><th>recording</th><th>pictures</th>";
+      "<h2>Light</h2>\n<p class=\"lead\">Composed key frames against ground-truth images, as "
+      "<code>pleinair compare</code> has it: mean CIEDE2000 over the virtual object, its shadow, "
+      "both with 25 pixels around them, everything; small: where the mean lies with 95 % by "
+      "Student's t over the key frames.</p>\n<div "
+      "class=\"wide\"><table><tr><th>recording</th><th>images</th>";
   for (const accuracy::ImageMeasure& measure : accuracy::kImageMeasures) {
     html += fmt::format("<th>{}</th>", measure.name);
   }

@@ -69,7 +69,8 @@ class RecordingRun {
   Result<void> LookThrough() {
     PLEINAIR_ASSIGN_OR_RETURN(devices::Recording recording, devices::OpenRecording(path_));
     if (!recording.scene || recording.scene->marker.size_m <= 0.0) {
-      return InputError(path_, "does not say how large the marker is that its ground truth is of",
+      return InputError(path_,
+                        "does not give the size of the marker that its ground truth refers to",
                         "name size, and better family and id too, of the marker in its scene");
     }
     scene_ = *recording.scene;

@@ -34,7 +34,8 @@ double Length(const nlohmann::json& json, const char* key) {
 
 void AddBoardOptions(CLI::App& command, BoardOptions& options) {
   command
-      .add_option("--board", options.description, "What 'pleinair board' wrote beside its sheet")
+      .add_option("--board", options.description,
+                  "Board description that 'pleinair board' wrote beside its sheet")
       ->type_name("BOARD.json");
   command
       .add_option("--chessboard", options.chessboard,
@@ -42,12 +43,12 @@ void AddBoardOptions(CLI::App& command, BoardOptions& options) {
       ->type_name("9x6");
   command
       .add_option("--charuco", options.charuco,
-                  "A ChArUco board: its squares, as OpenCV counts them. Boards made before OpenCV "
-                  "4.6 are told from later ones by looking")
+                  "A ChArUco board: its squares, as OpenCV counts them. The layout used before "
+                  "OpenCV 4.6 is detected too")
       ->type_name("8x6");
   command
       .add_option("--dictionary", options.dictionary,
-                  "Of the ChArUco board, such as 5x5_100; default: found by looking")
+                  "Dictionary of the ChArUco board, such as 5x5_100; default: detected")
       ->type_name("NAME");
   command
       .add_option("--square-mm", options.square_mm,
@@ -115,8 +116,7 @@ Result<CalibrationBoard> BoardOf(const BoardOptions& options) {
                     (options.charuco.empty() ? 0 : 1);
   if (given != 1) {
     return InputError(
-        "",
-        given == 0 ? "which board is in the pictures is not said" : "more than one board is named",
+        "", given == 0 ? "the board in the images is not given" : "more than one board is named",
         "give one of --board BOARD.json, --chessboard 9x6, --charuco 8x6");
   }
   if (!options.dictionary.empty() && options.charuco.empty()) {
@@ -124,7 +124,7 @@ Result<CalibrationBoard> BoardOf(const BoardOptions& options) {
   }
   if (!options.description.empty()) {
     if (options.square_mm) {
-      return InputError("--square-mm", "stands in the description already", "leave it out");
+      return InputError("--square-mm", "is already in the board description", "leave it out");
     }
     return ReadBoardDescription(options.description);
   }

@@ -77,7 +77,7 @@ exports::VectorDrawing CoverageDrawing(const LensCalibration& calibration) {
   double scale = 1.0;
   exports::VectorDrawing drawing =
       PictureFrame(camera,
-                   fmt::format("{} views cover {:.0f} % of the picture", calibration.views.size(),
+                   fmt::format("{} views cover {:.0f} % of the image", calibration.views.size(),
                                100.0 * calibration.coverage.Share()),
                    &scale);
   using Coverage = tracker::ViewCoverage;

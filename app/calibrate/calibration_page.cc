@@ -154,7 +154,7 @@ std::string CalibrationPage(const CalibrationFacts& facts, const LensCalibration
           std::string(exports::kPageStyle) + kStyle + "</style></head><body>\n<h1>Lens of " +
           files::EscapeMarkup(facts.title) + "</h1>\n<p class=\"lead\">" +
           files::EscapeMarkup(facts.board) +
-          fmt::format(", seen in {} of {} pictures: <code>", facts.with_board, facts.looked_at) +
+          fmt::format(", seen in {} of {} images: <code>", facts.with_board, facts.looked_at) +
           files::EscapeMarkup(facts.command) + "</code></p>\n<div class=\"cards\">\n";
   html += Card(
       fmt::format("{:.2f} px", 0.5 * (camera.fx + camera.fy)),
@@ -163,7 +163,7 @@ std::string CalibrationPage(const CalibrationFacts& facts, const LensCalibration
   html += Card(fmt::format("{:.3f} px", calibration.validation.rms_px),
                fmt::format("RMS of views left out ({} folds)", calibration.validation.folds));
   html +=
-      Card(fmt::format("{:.0f} %", 100.0 * calibration.coverage.Share()), "of the picture covered");
+      Card(fmt::format("{:.0f} %", 100.0 * calibration.coverage.Share()), "of the image covered");
   if (camera.distortion_model == DistortionModel::kBrownConrady) {
     html += Card(fmt::format("{:.1f} x {:.1f}", degrees(camera.width, camera.fx),
                              degrees(camera.height, camera.fy)),
@@ -180,10 +180,11 @@ std::string CalibrationPage(const CalibrationFacts& facts, const LensCalibration
   }
   html += "<h2>Where the board was seen</h2>\n<div class=\"drawings\">\n";
   html += Figure(CoverageDrawing(calibration),
-                 "Corners by how far off they are: blue not at all, red three times the RMS and "
-                 "more. Crosses: nothing was seen here.");
-  html += Figure(ResidualDrawing(calibration),
-                 "Residuals by region. Arrows that go together are what this kind of lens misses.");
+                 "Corners by residual: blue zero, red three times the RMS and more. Crosses: no "
+                 "corner was seen here.");
+  html += Figure(
+      ResidualDrawing(calibration),
+      "Residuals by region. Aligned arrows show distortion that this kind of lens does not model.");
   html += Figure(DistortionDrawing(calibration),
                  "A grid without distortion (dashed) and through this lens.");
   html += Figure(PlacesDrawing(calibration), "Boards from above and from the side.");

@@ -79,8 +79,8 @@ class CameraStream final : public PictureStream {
  private:
   static void Report(const devices::CameraEvent& event) {
     using Kind = devices::CameraEvent::Kind;
-    if (event.kind == Kind::kGone) std::cerr << "The camera is gone; waiting for it.\n";
-    if (event.kind == Kind::kStalled) std::cerr << "The camera sends nothing; waiting for it.\n";
+    if (event.kind == Kind::kGone) std::cerr << "The camera is disconnected; waiting for it.\n";
+    if (event.kind == Kind::kStalled) std::cerr << "The camera sends no images; waiting for it.\n";
     if (event.kind == Kind::kConnected && !event.details.empty())
       std::cerr << event.details << ".\n";
   }
@@ -112,8 +112,7 @@ Result<std::vector<fs::path>> PicturesIn(const fs::path& folder) {
   if (files.empty() && fs::is_directory(folder / "frames", error))
     return PicturesIn(folder / "frames");
   if (files.empty()) {
-    return InputError(folder.string(), "holds no picture (.png, .jpg)",
-                      "name the folder with them");
+    return InputError(folder.string(), "holds no image (.png, .jpg)", "name the folder with them");
   }
   std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
     const std::string left = a.filename().string(), right = b.filename().string();
@@ -171,7 +170,7 @@ Result<std::unique_ptr<PictureStream>> OpenPictures(const std::vector<std::strin
   const auto alone = [&](const std::string& source) -> Result<void> {
     if (sources.size() == 1) return {};
     return InputError(source, "can only be calibrated alone: cameras and films are not mixed",
-                      "name it alone, or pictures only");
+                      "name it alone, or images only");
   };
   std::vector<fs::path> files;
   for (const std::string& source : sources) {

@@ -28,7 +28,7 @@ Result<void> CheckSize(const NamedPicture& picture, const std::string& first_nam
   return InputError(picture.name,
                     fmt::format("has {}x{} pixels, and {} has {}x{}", width, height, first_name,
                                 collection->width, collection->height),
-                    "a calibration is for one size: give pictures of one camera at one size");
+                    "a calibration is for one size: give images of one camera at one size");
 }
 
 /// Reports the missing coverage after each view of a camera.
@@ -37,22 +37,24 @@ void ReportProgress(const Collection& collection, const tracker::ViewCoverage& c
   constexpr const char* kHalves[] = {"left", "right", "top", "bottom"};
   const auto halves = coverage.Halves();
   for (std::size_t i = 0; i < halves.size(); ++i) {
-    if (halves[i] < 0.6) bare += (bare.empty() ? "; still bare: " : ", ") + std::string(kHalves[i]);
+    if (halves[i] < 0.6)
+      bare += (bare.empty() ? "; not yet covered: " : ", ") + std::string(kHalves[i]);
   }
-  std::cerr << fmt::format("view {}: {:.0f} % of the picture covered{}\n", collection.views.size(),
+  std::cerr << fmt::format("view {}: {:.0f} % of the image covered{}\n", collection.views.size(),
                            100.0 * coverage.Share(), bare);
 }
 
 tl::unexpected<Error> NothingFound(const Collection& collection, tracker::BoardFinder& finder,
                                    const std::string& first_name, const GreyImage& first) {
   const std::string hint = first.empty() ? "" : finder.Hint(first.view());
-  return InputError(
-      first_name,
-      fmt::format("no {} is seen in {}", finder.board().Description(),
-                  collection.looked_at == 1
-                      ? "this picture"
-                      : fmt::format("any of {} pictures", collection.looked_at)),
-      hint.empty() ? "see whether it is counted and named rightly, whole and sharp" : hint);
+  return InputError(first_name,
+                    fmt::format("no {} is seen in {}", finder.board().Description(),
+                                collection.looked_at == 1
+                                    ? "this image"
+                                    : fmt::format("any of {} images", collection.looked_at)),
+                    hint.empty()
+                        ? "check its type and its counts, and that it is wholly visible and sharp"
+                        : hint);
 }
 
 }  // namespace
@@ -65,7 +67,7 @@ Result<Collection> CollectViews(PictureStream& pictures, tracker::BoardFinder& f
   std::string first_name;
   GreyImage first;
   const auto start = Clock::now();
-  ProgressBar bar("Looking for the board", pictures.Count(), "pictures");
+  ProgressBar bar("Finding the board", pictures.Count(), "images");
   const auto maximum = static_cast<std::size_t>(options.max_views);
   while (collection.views.size() < maximum || !pictures.is_film()) {
     if (pictures.is_live() && options.seconds &&
@@ -97,7 +99,7 @@ Result<Collection> CollectViews(PictureStream& pictures, tracker::BoardFinder& f
     if (pictures.is_live() && !options.quiet) ReportProgress(collection, coverage);
   }
   if (collection.looked_at == 0) {
-    return InputError("", "not a single picture came", "see whether the camera sends any");
+    return InputError("", "no image arrived", "check that the camera sends images");
   }
   if (collection.views.empty()) return NothingFound(collection, finder, first_name, first);
   return collection;

@@ -35,7 +35,7 @@ constexpr const char* kAccuracyExamples =
     "DIR gets report.html, report.json and records.jsonl, which depend on the options above "
     "alone,\n"
     "and times.json (docs/guide/accuracy-runs.md). A run that was interrupted goes on where it\n"
-    "stopped. Markers are S-G 0-49, 14 cm; each peer has its own print in the same scenes.";
+    "stopped. Markers are S-G 0-49, 14 cm; each peer has its own marker in the same scenes.";
 
 struct AccuracyOptions {
   AccuracyConfig config;
@@ -113,7 +113,7 @@ Result<void> RunAccuracy(AccuracyOptions& options) {
       options.output,
       fmt::format("{} of {} recordings could not be measured", outcome.skipped_recordings.size(),
                   options.config.recordings.size()),
-      "mend what the lines above say and run again: what is done stays");
+      "correct what the lines above report and run again: finished parts are kept");
 }
 
 }  // namespace
@@ -126,7 +126,7 @@ void AddAccuracyCommand(CLI::App& app, CommandResult& result) {
   command->add_option("RECORDING", options->config.recordings,
                       "Recordings with ground truth (truth.tum, groundtruth.txt, or EuRoC's)");
   command->add_flag("!--no-light", options->config.light,
-                    "Do not compose recordings that have true pictures");
+                    "Do not compose recordings that have ground-truth images");
   std::vector<std::string> sweeps = accuracy::SweepNames();
   sweeps.push_back("all");
   command
@@ -142,36 +142,41 @@ void AddAccuracyCommand(CLI::App& app, CommandResult& result) {
   command->add_option("-o,--output", options->output, "Folder for the report")
       ->required()
       ->type_name("DIR");
-  command->add_option("--size", options->config.camera, "Lens and picture")
+  command->add_option("--size", options->config.camera, "Lens and image size")
       ->check(CLI::IsMember(accuracy::SweepCameraNames()))
       ->capture_default_str();
-  command->add_option("--seed", options->config.seed, "Of the scenes")->capture_default_str();
+  command->add_option("--seed", options->config.seed, "Random seed of the scenes")
+      ->capture_default_str();
   command->add_option("--noise-seed", options->noise_seed,
-                      "Of the noise on the same scenes (default: as --seed)");
+                      "Random seed of the noise on the same scenes (default: as --seed)");
   command
-      ->add_option("--numbers", options->config.numbers,
-                   "S-G numbers that we may take to be in use in the sweeps, such as 0-49 "
-                   "(default: all 4,096)")
+      ->add_option(
+          "--numbers", options->config.numbers,
+          "S-G numbers assumed to be in use in the sweeps, such as 0-49 (default: all 4,096)")
       ->delimiter(',')
       ->type_name("N,...");
-  CLI::Option* scale =
-      command->add_option("--scale", options->config.scale, "Times the frames of each level")
-          ->check(NumberRange(kMinScale, kMaxScale))
-          ->capture_default_str();
+  CLI::Option* scale = command
+                           ->add_option("--scale", options->config.scale,
+                                        "Factor on the number of frames of each level")
+                           ->check(NumberRange(kMinScale, kMaxScale))
+                           ->capture_default_str();
   command->add_flag("--quick", options->quick, "An eighth of the frames")->excludes(scale);
   command
       ->add_option(
           "--measure", options->config.measure,
-          "How prints are measured: blocks (as detect and live do) or print (as replay does)")
+          "How markers are measured: blocks (as in detect and live) or print (as in replay)")
       ->check(CLI::IsMember({"blocks", "print"}))
       ->capture_default_str();
   command
-      ->add_option("--spoil-corners-px", options->config.spoil_corners_px,
-                   "Move each found corner by so much: a planted regression, to try the gate with")
+      ->add_option(
+          "--spoil-corners-px", options->config.spoil_corners_px,
+          "Move each found corner by this distance: a planted regression that tests 'report diff'")
       ->check(NumberRange(0.0, kMostSpoil_px));
   command->add_option("--shard", options->shard, "Do the I-th of N parts only; merge them later")
       ->type_name("I/N");
-  command->add_option("--threads", options->threads, "Default: as many as the machine has")
+  command
+      ->add_option("--threads", options->threads,
+                   "Number of threads; default: as many as the machine has")
       ->check(CLI::Range(1, 1024));
   command->add_flag("--json", options->json, "One JSON object on standard output");
   command->callback([options, &result] { result.status = RunAccuracy(*options); });

@@ -218,8 +218,9 @@ void AddBenchCommand(CLI::App& app, CommandResult& result) {
       ->check(NumberRange(0.0, 1.0))
       ->type_name("0...1");
   command
-      ->add_option("--recording", options->recording,
-                   "Recording whose models the courtyard is; recordings/courtyard_midday")
+      ->add_option(
+          "--recording", options->recording,
+          "Recording whose models the courtyard scene uses; default recordings/courtyard_midday")
       ->type_name("FOLDER");
   CLI::Option* rays =
       command->add_option("--rays", options->bench.rays, "Rays a pixel of the truth")

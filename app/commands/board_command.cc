@@ -37,9 +37,8 @@ constexpr const char* kBoardExamples =
     "      9 x 6 inner corners, squares as large as the page takes\n"
     "  pleinair board --charuco 8x6 --dictionary 5x5_100 --square-mm 30 --page A3-landscape "
     "-o charuco.svg\n"
-    "Of our markers the size is the outer edge of each black square, the gap lies between two "
-    "such edges.\n"
-    "'pleinair calibrate --board board.json' takes what is written beside the sheet.\n";
+    "A marker's size is the outer edge of its black square; the gap lies between two such edges.\n"
+    "'pleinair calibrate --board board.json' reads what is written beside the sheet.\n";
 
 struct BoardSheetOptions {
   exports::Board board{.columns = 4, .rows = 5, .first = 0, .size_mm = 36.0};
@@ -222,13 +221,13 @@ void AddBoardCommand(CLI::App& app, CommandResult& result) {
           ->type_name("MM"));
   CLI::Option* chessboard = command
                                 ->add_option("--chessboard", options->chessboard,
-                                             "A chessboard instead, with so many inner corners")
+                                             "A chessboard instead, with this many inner corners")
                                 ->type_name("9x6");
-  CLI::Option* charuco =
-      command
-          ->add_option("--charuco", options->charuco, "A ChArUco board instead, of so many squares")
-          ->type_name("8x6")
-          ->excludes(chessboard);
+  CLI::Option* charuco = command
+                             ->add_option("--charuco", options->charuco,
+                                          "A ChArUco board instead, of this many squares")
+                             ->type_name("8x6")
+                             ->excludes(chessboard);
   for (CLI::Option* option : of_markers) option->excludes(chessboard)->excludes(charuco);
   command
       ->add_option("--dictionary", options->dictionary,

@@ -38,10 +38,10 @@ constexpr const char* kCalibrateExamples =
     "  pleinair calibrate --chessboard 9x6 film.mp4 --opencv camera.yaml --ros camera_info.yaml\n"
     "  pleinair calibrate --charuco 8x6 v4l2:/dev/video0 -o camera.json\n"
     "      picks views while you move the board, until it has enough or you press Ctrl-C\n"
-    "Take 10 to 20 pictures of the whole board: near and far, tilted by 20 to 45 degrees in "
+    "Take 10 to 20 images of the whole board: near and far, tilted by 20 to 45 degrees in "
     "several\n"
-    "directions, in every corner of the picture, with focus and zoom held. Views that do not\n"
-    "determine the lens are refused with the reasons. docs/guide/calibrate.md tells more.";
+    "directions, in every corner of the image, with focus and zoom held. Views that do not\n"
+    "determine the lens are refused with the reasons. docs/guide/calibrate.md explains more.";
 
 /// A file to write and its format.
 struct Output {
@@ -56,9 +56,9 @@ struct CalibrateOptions {
   BoardOptions board;
   std::string model = "auto";
   std::vector<Output> outputs = {
-      {"-o,--output", "Our own form (.json)", CalibrationForm::kOwn, ""},
-      {"--opencv", "OpenCV's form (.yaml)", CalibrationForm::kOpenCvYaml, ""},
-      {"--opencv-json", "OpenCV's form as JSON", CalibrationForm::kOpenCvJson, ""},
+      {"-o,--output", "pleinair's own format (.json)", CalibrationForm::kOwn, ""},
+      {"--opencv", "OpenCV's format (.yaml)", CalibrationForm::kOpenCvYaml, ""},
+      {"--opencv-json", "OpenCV's format as JSON", CalibrationForm::kOpenCvJson, ""},
       {"--ros", "ROS' camera_info (.yaml)", CalibrationForm::kRos, ""},
       {"--kalibr", "Kalibr's camchain (.yaml)", CalibrationForm::kKalibr, ""},
       {"--euroc", "EuRoC's sensor.yaml", CalibrationForm::kEuroc, ""}};
@@ -81,7 +81,7 @@ Result<void> CheckOutputs(const CalibrateOptions& options) {
   const bool any = !options.report.empty() || !options.coverage.empty() || options.json ||
                    std::any_of(options.outputs.begin(), options.outputs.end(),
                                [](const Output& output) { return !output.file.empty(); });
-  if (!any) return InputError("", "nothing is to be written", "name a file with -o camera.json");
+  if (!any) return InputError("", "no output file is given", "name a file with -o camera.json");
   if (!options.coverage.empty() && !options.coverage.ends_with(".svg") &&
       !options.coverage.ends_with(".png")) {
     return InputError("--coverage", "\"" + options.coverage + "\" is neither .svg nor .png",
@@ -124,8 +124,7 @@ Result<LensCalibration> Calibrate(const CalibrateOptions& options, const Collect
   if (error.where.empty()) error.where = options.sources.front();
   if (collection.views.size() < tracker::kMinViews) {
     error.what = fmt::format(
-        "the board is seen in {} of {} pictures, and fewer than {} do not "
-        "determine a lens",
+        "the board is seen in {} of {} images, and fewer than {} do not determine a lens",
         collection.views.size(), collection.looked_at, tracker::kMinViews);
   }
   return tl::make_unexpected(std::move(error));
@@ -237,7 +236,7 @@ void PrintCalibration(const LensCalibration& calibration, const Collection& coll
   const CameraModel& camera = calibration.fit.camera;
   const tracker::LensUncertainty& doubt = calibration.uncertainty;
   std::cout << fmt::format(
-      "{}, seen in {} of {} pictures of {}x{}\n"
+      "{}, seen in {} of {} images of {}x{}\n"
       "fx {:.2f} +- {:.2f} px, fy {:.2f} +- {:.2f} px, centre {:.2f}, {:.2f} +- {:.2f}, {:.2f} "
       "px\n",
       board.Description(), collection.views.size(), collection.looked_at, camera.width,
@@ -250,7 +249,7 @@ void PrintCalibration(const LensCalibration& calibration, const Collection& coll
                              doubt.distortion[i]);
   }
   std::cout << fmt::format(
-      "\nRMS {:.3f} px, of views left out {:.3f} px; {:.0f} % of the picture covered\n",
+      "\nRMS {:.3f} px, of views left out {:.3f} px; {:.0f} % of the image covered\n",
       calibration.rms_px, calibration.validation.rms_px, 100.0 * calibration.coverage.Share());
   for (const tracker::DroppedView& dropped : calibration.dropped) {
     std::cerr << "left out " << dropped.name << ": " << dropped.why << '\n';
@@ -293,9 +292,9 @@ void AddCalibrateCommand(CLI::App& app, CommandResult& result) {
   CLI::App* command = app.add_subcommand("calibrate", "Calibrate a camera from views of a board");
   command->footer(kCalibrateExamples);
   command
-      ->add_option("SOURCE", options->sources,
-                   "Pictures, a folder of them, a film, or a camera (v4l2:..., libcamera:..., "
-                   "aravis:...)")
+      ->add_option(
+          "SOURCE", options->sources,
+          "Images, a folder of them, a film, or a camera (v4l2:..., libcamera:..., aravis:...)")
       ->required();
   AddBoardOptions(*command, options->board);
   for (Output& output : options->outputs) {
@@ -307,17 +306,17 @@ void AddCalibrateCommand(CLI::App& app, CommandResult& result) {
       ->type_name("F");
   command
       ->add_option("--model", options->model,
-                   "auto (the one that foretells views left out best), pinhole, radtan4, radtan5, "
-                   "rational or equidistant (fisheye)")
+                   "auto (the one that best predicts views left out of the fit), pinhole, radtan4, "
+                   "radtan5, rational or equidistant (fisheye)")
       ->check(CLI::IsMember({"auto", "pinhole", "radtan4", "radtan5", "rational", "equidistant"}))
       ->type_name("KIND")
       ->capture_default_str();
-  command->add_option("--views", options->views, "Of a film or camera, pick at most so many views")
+  command->add_option("--views", options->views, "Maximum number of views from a film or camera")
       ->check(CLI::Range(tracker::kMinViews, 200))
       ->capture_default_str();
-  command->add_option("--seconds", options->seconds, "Of a camera, look for so long at most")
+  command->add_option("--seconds", options->seconds, "Maximum time with a camera")
       ->check(NumberRange(1.0, 36'000.0));
-  command->add_option("--size", options->size, "Of a camera: size of its pictures")
+  command->add_option("--size", options->size, "Image size to request from a camera")
       ->type_name("1280x720");
   command->add_flag("--json", options->json, "One JSON object on standard output");
   command->callback([options, &result] {
@@ -325,7 +324,7 @@ void AddCalibrateCommand(CLI::App& app, CommandResult& result) {
       result.status = RunCalibrate(*options);
     } catch (const std::exception& error) {
       result.status = SystemError("", std::string("calibrate failed: ") + error.what(),
-                                  "please report it with the pictures");
+                                  "please report it with the images");
     }
   });
 }

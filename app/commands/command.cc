@@ -28,7 +28,7 @@ constexpr const char* kExamples =
     "  pleinair accuracy --quick -o out/quick\n"
     "  pleinair devices\n"
     "  pleinair doctor\n"
-    "'pleinair SUBCOMMAND --help' tells more. Exit codes: 0 done, 1 could not, 2 the input or\n"
+    "'pleinair SUBCOMMAND --help' explains more. Exit codes: 0 done, 1 could not, 2 the input or\n"
     "the usage is wrong.";
 
 /// Messages are one line, whatever a file's name or a library's text contains.

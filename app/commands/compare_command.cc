@@ -30,8 +30,9 @@ constexpr const char* kCompareExamples =
     "  pleinair compare ours/ truth/ --json\n"
     "DIR: what replay --frames wrote, or a folder of NNNN.png. TRUTH: a recording whose "
     "scene.json\n"
-    "lists key_frames with true pictures and regions, or a folder of NNNN.png. Prints a line a\n"
-    "picture: PSNR (dB), SSIM, and mean CIEDE2000 over the object, its shadow, both with 25 "
+    "lists key_frames with ground-truth images and regions, or a folder of NNNN.png. Prints a "
+    "line\n"
+    "per image: PSNR (dB), SSIM, and mean CIEDE2000 over the object, its shadow, both with 25 "
     "pixels\n"
     "around them, and everything.";
 
@@ -112,13 +113,16 @@ Result<void> RunCompare(const CompareOptions& options) {
 
 void AddCompareCommand(CLI::App& app, CommandResult& result) {
   auto options = std::make_shared<CompareOptions>();
-  CLI::App* command = app.add_subcommand("compare", "Score composed pictures against true ones");
+  CLI::App* command =
+      app.add_subcommand("compare", "Score composed images against ground-truth images");
   command->footer(kCompareExamples);
-  command->add_option("DIR", options->pictures, "Folder with the composed pictures")->required();
-  command->add_option("TRUTH", options->truth, "Recording with true pictures, or a folder of them")
+  command->add_option("DIR", options->pictures, "Folder with the composed images")->required();
+  command
+      ->add_option("TRUTH", options->truth,
+                   "Recording with ground-truth images, or a folder of them")
       ->required();
   command->add_option("--report", options->report,
-                      "Page with scores, truth, composed picture and difference, and the day of "
+                      "Page with scores, truth, composed image and difference, and the day of "
                       "replay --time-lapse (HTML)");
   command->add_flag("--glossy", options->glossy, "Against the glossy variant of the object");
   command->add_flag("--json", options->json, "Print one JSON object");
@@ -127,7 +131,7 @@ void AddCompareCommand(CLI::App& app, CommandResult& result) {
       result.status = RunCompare(*options);
     } catch (const std::exception& error) {
       result.status = SystemError("", std::string("compare failed: ") + error.what(),
-                                  "please report it with the pictures");
+                                  "please report it with the images");
     }
   });
 }

@@ -30,10 +30,10 @@ constexpr const char* kDetectExamples =
     "  pleinair detect photo.jpg --calibration camera.yaml --size-mm 140 --family sg --numbers "
     "0-49\n"
     "  pleinair detect frames/*.png --calibration camera.json --target poster.target --track\n"
-    "Prints one JSON object a picture: file, milliseconds, and markers with family, id, corners\n"
-    "(pixels, integer = pixel centre; top-left, then clockwise as the print is read),\n"
+    "Prints one JSON object per image: file, milliseconds, and markers with family, id, corners\n"
+    "(pixels, integer = pixel centre; top-left, then clockwise as the marker is read),\n"
     "camera_from_marker, covariance, visible_fraction, visibility (of S-G markers and targets,\n"
-    "by parts of the print), name (of targets, whose family is picture), alternative and path;\n"
+    "by parts of the marker), name (of targets, whose family is picture), alternative and path;\n"
     "with --track also lost: markers that are no longer seen. Without --size-mm only the targets\n"
     "are looked for.";
 
@@ -41,7 +41,7 @@ Result<tracker::SgStrategy> StrategyOf(const std::string& name) {
   if (name == "hybrid") return tracker::SgStrategy::kHybrid;
   if (name == "fast") return tracker::SgStrategy::kFast;
   if (name == "surf-golay") return tracker::SgStrategy::kSurfGolay;
-  return InputError("--strategy", "\"" + name + "\" is no strategy",
+  return InputError("--strategy", "\"" + name + "\" is not a strategy",
                     "use hybrid, fast or surf-golay");
 }
 
@@ -53,7 +53,7 @@ Result<void> CheckPicture(const std::string& picture, const CameraModel& camera,
     return std::to_string(width) + "x" + std::to_string(height);
   };
   return InputError(picture,
-                    "the picture is " + text(size.width, size.height) + " but the calibration " +
+                    "the image is " + text(size.width, size.height) + " but the calibration " +
                         calibration + " is for " + text(camera.width, camera.height),
                     "use the calibration of this camera at this resolution");
 }
@@ -120,9 +120,9 @@ Result<void> RunDetect(const DetectArguments& arguments, std::ostream& out) {
 
 void AddDetectCommand(CLI::App& app, CommandResult& result) {
   auto arguments = std::make_shared<DetectArguments>();
-  CLI::App* command = app.add_subcommand("detect", "Find markers and their poses in pictures");
+  CLI::App* command = app.add_subcommand("detect", "Find markers and their poses in images");
   command->footer(kDetectExamples);
-  command->add_option("PICTURES", arguments->pictures, "PNG or JPEG pictures")->required();
+  command->add_option("PICTURES", arguments->pictures, "PNG or JPEG images")->required();
   command
       ->add_option("--calibration", arguments->calibration,
                    "Camera calibration (own JSON, OpenCV YAML, ROS camera_info, Kalibr)")
@@ -139,7 +139,7 @@ void AddDetectCommand(CLI::App& app, CommandResult& result) {
       ->delimiter(',')
       ->needs(size)
       ->capture_default_str();
-  command->add_flag("--track", arguments->track, "The pictures are consecutive frames");
+  command->add_flag("--track", arguments->track, "The images are consecutive frames");
   command
       ->add_option("--strategy", arguments->strategy,
                    "How S-G markers are found: hybrid, fast (whole edge seen) or surf-golay")

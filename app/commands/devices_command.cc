@@ -21,7 +21,7 @@ constexpr const char* kDevicesExamples =
     "  pleinair devices\n"
     "      the cameras that are plugged in, with their sizes, rates and controls\n"
     "  pleinair devices --network\n"
-    "      GigE Vision cameras, too: they are looked for by a broadcast on every network\n"
+    "      GigE Vision cameras, too, found by a broadcast on every network\n"
     "  pleinair devices --json\n"
     "      one JSON object a camera\n"
     "The first name of a camera is its identity: it stays when the camera is plugged in elsewhere\n"
@@ -95,11 +95,11 @@ void PrintCamera(const devices::CameraDescription& camera) {
     fmt::print("  name      {} ({}, {})\n", camera.name, camera.driver, camera.bus);
   }
   if (!camera.serial.empty()) fmt::print("  serial    {}\n", camera.serial);
-  if (!camera.trouble.empty()) fmt::print("  trouble   {}\n", camera.trouble);
+  if (!camera.trouble.empty()) fmt::print("  problem   {}\n", camera.trouble);
   PrintFormats(camera.formats);
   for (const devices::ControlRange& range : camera.controls) {
     const char* unit = Unit(range.control);
-    const char* automatic = range.is_auto ? ", automatic" : range.has_auto ? ", held" : "";
+    const char* automatic = range.is_auto ? ", automatic" : range.has_auto ? ", locked" : "";
     fmt::print("  control   {}: {:g}{} ({:g} to {:g}{}){}\n", NameOf(range.control), range.value,
                unit, range.lowest, range.highest, unit, automatic);
   }
@@ -148,12 +148,12 @@ void RunDevices(const DevicesOptions& options) {
     }
   }
   if (list.cameras.empty()) {
-    std::cerr << "No camera is plugged in. Plug one in and ask again"
+    std::cerr << "No camera is plugged in. Plug one in and run this again"
               << (options.network ? ".\n" : "; --network looks for GigE cameras, too.\n")
               << "Without one, file:PATH plays a recording as if it were a camera.\n";
   }
   for (const devices::CameraBackendState& backend : list.backends) {
-    if (!backend.built_in) std::cerr << "This build does without " << backend.name << ".\n";
+    if (!backend.built_in) std::cerr << "This build has no support for " << backend.name << ".\n";
     if (!backend.trouble.empty()) std::cerr << backend.name << ": " << backend.trouble << ".\n";
   }
 }

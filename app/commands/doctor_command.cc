@@ -203,7 +203,7 @@ std::vector<Finding> ExamineCalibration(const CameraModel& camera) {
 void AddDoctorCommand(CLI::App& app, CommandResult& result) {
   auto options = std::make_shared<DoctorOptions>();
   CLI::App* command =
-      app.add_subcommand("doctor", "Tell whether this machine can draw, and check a calibration");
+      app.add_subcommand("doctor", "Check whether this machine can draw, and check a calibration");
   command->footer(kDoctorExamples);
   command->add_option("--calibration", options->calibration,
                       "Camera calibration to examine (own JSON, OpenCV YAML, ROS, Kalibr)");

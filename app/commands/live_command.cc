@@ -49,11 +49,9 @@ constexpr const char* kLiveExamples =
     "  pleinair live --camera file:recordings/courtyard_midday --headless --record out/take "
     "-o out/live\n"
     "      (poses to compare with those of 'pleinair replay out/take -o out/replayed')\n"
-    "'pleinair devices' lists cameras. A camera that is not there is waited for; one that is "
-    "pulled\n"
-    "out is taken up again when it comes back. Ctrl-C ends. docs/guide/live.md tells of the "
-    "window,\n"
-    "docs/guide/cameras.md of cameras.";
+    "'pleinair devices' lists cameras. If the camera is not connected, live waits for it, also\n"
+    "after it was unplugged. Ctrl-C ends. docs/guide/live.md describes the window,\n"
+    "docs/guide/cameras.md cameras.";
 
 // Interval of the reports in a long run, if they are enabled.
 constexpr double kReportEvery_s = 60.0;
@@ -118,7 +116,7 @@ Result<void> CheckLiveOptions(const CLI::App& command, const LiveArguments& argu
   constexpr const char* kCameras = "cameras, not to recordings";
   constexpr const char* kWindow = "the window";
   constexpr const char* kCoefficients =
-      "daylight coefficients, which --lossless has with --light-cache alone";
+      "daylight coefficients, which --lossless uses only with --light-cache";
   const bool coefficients = !arguments.lossless || !arguments.light.cache.empty();
   PLEINAIR_RETURN_IF_ERROR(RefuseUnusedOptions(
       command, {{"--format", !is_file, kCameras},
@@ -153,8 +151,9 @@ Result<LiveSource> OpenFile(const devices::CameraUri& uri, const LiveArguments& 
   PLEINAIR_ASSIGN_OR_RETURN(devices::Recording recording,
                             devices::OpenRecording(uri.value, options));
   if (arguments.lossless && (arguments.input.loop || !arguments.headless)) {
-    return InputError("--lossless", "takes the time it takes, once, and shows nothing meanwhile",
-                      "give --headless and no --loop with it");
+    return InputError("--lossless",
+                      "processes the recording once, as fast as this machine can, without a window",
+                      "add --headless and leave --loop out");
   }
   LiveSource source{std::move(recording.frames), nullptr, recording.camera, recording.scene};
   if (arguments.lossless) return source;
@@ -173,7 +172,7 @@ Result<LiveSource> OpenCamera(const devices::CameraUri& uri, const LiveArguments
     return InputError("--lossless", "is for recordings: a camera does not wait", "leave it out");
   }
   if (arguments.input.calibration.empty()) {
-    return InputError("--calibration", "is missing: a camera says nothing of its lens",
+    return InputError("--calibration", "is missing: a camera does not report its lens",
                       "calibrate it once ('pleinair calibrate') and name the file");
   }
   LiveSource source;
@@ -188,7 +187,7 @@ Result<LiveSource> OpenCamera(const devices::CameraUri& uri, const LiveArguments
   if (!arguments.input.pixel_format.empty()) {
     options.pictures.format = devices::PixelFormatByName(arguments.input.pixel_format);
     if (!options.pictures.format) {
-      return InputError("--format", "\"" + arguments.input.pixel_format + "\" is not read here",
+      return InputError("--format", "\"" + arguments.input.pixel_format + "\" is not supported",
                         "'pleinair devices' lists what the camera sends");
     }
   }
@@ -283,7 +282,8 @@ Result<void> RunLive(const CLI::App& command, const LiveArguments& arguments) {
   PLEINAIR_ASSIGN_OR_RETURN(LiveSource source,
                             is_file ? OpenFile(uri, arguments) : OpenCamera(uri, arguments));
   if (!source.scene) {
-    return InputError("--scene", "is missing: nobody said where this is and what is to be seen",
+    return InputError("--scene",
+                      "is missing: it describes the place, the marker and the virtual objects",
                       "write one (docs/guide/reference/recordings.md)");
   }
   KeepNoFreedPictures();
@@ -324,8 +324,8 @@ Result<void> RunLive(const CLI::App& command, const LiveArguments& arguments) {
   if (!last) return tl::make_unexpected(last.error());
   if (!arguments.output.screenshot.empty()) {
     if (last->empty()) {
-      return SystemError("--screenshot", "no picture was drawn until the end",
-                         "give it more --seconds");
+      return SystemError("--screenshot", "no frame was drawn before the end",
+                         "give more --seconds");
     }
     PLEINAIR_RETURN_IF_ERROR(exports::WritePng(arguments.output.screenshot, last->view()));
   }
@@ -338,7 +338,7 @@ Result<void> RunLive(const CLI::App& command, const LiveArguments& arguments) {
 
 void AddLiveCommand(CLI::App& app, CommandResult& result) {
   CLI::App* command =
-      app.add_subcommand("live", "Show a scene's objects in a camera's pictures as they come");
+      app.add_subcommand("live", "Show a scene's virtual objects in a camera's live images");
   command->footer(kLiveExamples);
   auto arguments = std::make_shared<LiveArguments>();
   LiveArguments& a = *arguments;
@@ -353,37 +353,37 @@ void AddLiveCommand(CLI::App& app, CommandResult& result) {
                       "for recordings the scene's)");
   command->add_option("--record", a.output.recording, "Record into this new folder, too");
   command->add_option("--detections", a.output.detections,
-                      "Write what is seen, one JSON line a frame");
+                      "Write the detections, one JSON line a frame");
   CLI::Option* output =
       command
           ->add_option("-o,--output", a.output.folder,
                        "Folder for what replay writes of a recording: poses/MARKER.tum and "
-                       "detections.jsonl; prints are measured as replay does, some 20 ms a marker")
+                       "detections.jsonl; markers are measured as in replay, some 20 ms each")
           ->type_name("FOLDER");
   command
       ->add_option("--export", a.output.exports,
-                   "With -o, also write the camera's path for other programs: gltf, colmap or "
-                   "colmap-binary, euroc, mcap")
+                   "With -o, also write the camera's trajectory for other programs: gltf, colmap "
+                   "or colmap-binary, euroc, mcap")
       ->delimiter(',')
       ->check(CLI::IsMember({"gltf", "colmap", "colmap-binary", "euroc", "mcap"}))
       ->type_name("FORM,...")
       ->needs(output);
   command
       ->add_option("--report-every", a.report_every_s,
-                   "Account for frames, latency and memory every so many seconds; 0: never. "
+                   "Report frames, latency and memory at this interval in seconds; 0: never. "
                    "Default: 60 with --json, else 0")
       ->check(NumberRange(0.0, 1e9));
   command->add_option("--screenshot", a.output.screenshot,
-                      "At the end, write the last picture as PNG");
+                      "At the end, write the last image as PNG");
   AddLightOptions(*command, a.light);
   AddSolverOptions(*command, a.light);
   command->add_flag("--shadow-debug", a.shadow_debug,
-                    "Tint what each partition of the shadow maps serves and show the maps (in the "
-                    "window: M)");
+                    "Tint surfaces by shadow-map partition and show the maps (in the window: M)");
   command->add_flag("--headless", a.headless, "Without a window");
-  command->add_option("--seconds", a.seconds, "End after so long")->check(NumberRange(0.0, 1e9));
+  command->add_option("--seconds", a.seconds, "End after this many seconds")
+      ->check(NumberRange(0.0, 1e9));
   command->add_option("--window", a.window.size, "Size of the window, WIDTHxHEIGHT");
-  command->add_option("--ui-scale", a.window.ui_scale, "Size of the window's letters; 1 is usual")
+  command->add_option("--ui-scale", a.window.ui_scale, "Scale of the window's text; 1 is usual")
       ->check(NumberRange(0.5, 8.0));
   command
       ->add_option("--pictures", a.window.screenshots,
@@ -395,23 +395,27 @@ void AddLiveCommand(CLI::App& app, CommandResult& result) {
                     "Of a recording, track and draw every frame, however long that takes");
   command
       ->add_option("--rate", a.input.rate_hz,
-                   "Frames a second to ask the camera for, or to play a recording at")
+                   "Frame rate to request from the camera, or to play a recording at")
       ->check(NumberRange(0.1, 1000.0));
   command->add_option("--format", a.input.pixel_format,
-                      "Pixels to ask for: YUYV, MJPG, NV12, GREY…");
+                      "Pixel format to request: YUYV, MJPG, NV12, GREY…");
   command->add_flag("--lock", a.input.holds.all,
-                    "Hold exposure, gain, white balance and focus as they are");
-  command->add_option("--hold-exposure", a.input.holds.exposure_s, "Hold this exposure, in seconds")
+                    "Lock exposure, gain, white balance and focus at their current values");
+  command
+      ->add_option("--hold-exposure", a.input.holds.exposure_s,
+                   "Lock the exposure at this value, in seconds")
       ->check(NumberRange(1e-6, 100.0));
   command
-      ->add_option("--hold-gain", a.input.holds.gain, "Hold this gain, in the camera's own steps")
+      ->add_option("--hold-gain", a.input.holds.gain,
+                   "Lock the gain at this value, in the camera's own units")
       ->check(NumberRange(0.0, 1e6));
   command
-      ->add_option("--hold-white-balance", a.input.holds.white_balance_k, "Hold this, in kelvins")
+      ->add_option("--hold-white-balance", a.input.holds.white_balance_k,
+                   "Lock the white balance at this value, in kelvins")
       ->check(NumberRange(1000.0, 40000.0));
   command
       ->add_option("--hold-focus", a.input.holds.focus,
-                   "Hold this focus, in the camera's own steps")
+                   "Lock the focus at this value, in the camera's own units")
       ->check(NumberRange(0.0, 1e6));
   command->add_flag("--json", a.json, "Events and statistics as JSON lines");
   command->callback(

@@ -37,7 +37,7 @@ constexpr const char* kMarkerExamples =
     "      one file with ten pages\n"
     "  pleinair marker 17 --size-mm 200 --page A3 -o marker.svg\n"
     "  pleinair marker 0-49 --png --pixels 960 -o 'print-{id}.png' --json\n"
-    "      the bare prints with their white margin, and where in each the black square lies\n"
+    "      the bare markers with their white margin, and where in each the black square lies\n"
     "The size is the outer edge of the black square, not of the paper.\n";
 
 constexpr const char* kIdPattern = "{id}";
@@ -226,8 +226,8 @@ void AddMarkerCommand(CLI::App& app, CommandResult& result) {
   AddFormatOptions(*command, options->formats);
   command
       ->add_option("--pixels", options->pixels,
-                   "The bare print with its white margin as a PNG of N x N pixels; multiples of 48 "
-                   "are sharpest")
+                   "The bare marker with its white margin as a PNG of N x N pixels; multiples of "
+                   "48 are sharpest")
       ->type_name("N")
       ->check(CLI::Range(kMinPixels, kMaxPixels))
       ->excludes(page);

@@ -25,7 +25,7 @@ constexpr const char* kPathExamples =
     "Read: TUM (.tum, .txt), EuRoC (.csv), COLMAP (a folder with cameras and images, .txt or "
     ".bin).\n"
     "Written: the same, COLMAP as text or, with --to colmap-binary, as .bin; glTF (.glb, .gltf) "
-    "and MCAP (.mcap). docs/guide/trajectories.md tells what each means.";
+    "and MCAP (.mcap). docs/guide/trajectories.md explains each format.";
 
 struct PathArguments {
   std::string input, output, from, to, calibration, extrinsics, axes = "z-up";
@@ -45,7 +45,7 @@ Result<void> RunPath(const PathArguments& arguments) {
                             FormatOf(arguments.to, arguments.output));
   std::error_code error;
   if (std::filesystem::equivalent(arguments.input, arguments.output, error)) {
-    return InputError(arguments.output, "is what is read", "name another file to write");
+    return InputError(arguments.output, "is the input itself", "name another file to write");
   }
   exports::TrajectoryReading reading;
   reading.frame_rate_hz = arguments.frame_rate_hz;
@@ -92,37 +92,38 @@ Result<void> RunPath(const PathArguments& arguments) {
 }  // namespace
 
 void AddPathCommand(CLI::App& app, CommandResult& result) {
-  CLI::App* path = app.add_subcommand("path", "Camera paths in the forms of other programs");
+  CLI::App* path = app.add_subcommand("path", "Convert camera trajectories for other programs");
   path->require_subcommand(1);
   CLI::App* command = path->add_subcommand(
-      "convert", "Turn a camera's path from one form into another, frames of reference included");
+      "convert", "Convert a camera trajectory to another format and its frame of reference");
   command->footer(kPathExamples);
   auto arguments = std::make_shared<PathArguments>();
-  command->add_option("IN", arguments->input, "The path to read")->required();
-  command->add_option("OUT", arguments->output, "The file or folder to write")->required();
-  command->add_option("--from", arguments->from, "Form of IN where its name does not tell")
+  command->add_option("IN", arguments->input, "Trajectory to read")->required();
+  command->add_option("OUT", arguments->output, "File or folder to write")->required();
+  command->add_option("--from", arguments->from, "Format of IN where its name does not show it")
       ->check(CLI::IsMember({"tum", "euroc", "colmap"}));
-  command->add_option("--to", arguments->to, "Form of OUT where its name does not tell")
+  command->add_option("--to", arguments->to, "Format of OUT where its name does not show it")
       ->check(CLI::IsMember({"tum", "euroc", "colmap", "colmap-binary", "gltf", "mcap"}));
   command->add_option("--calibration", arguments->calibration,
-                      "The lens, for glTF, MCAP and COLMAP; instead of the one that IN has");
+                      "Camera calibration for glTF, MCAP and COLMAP, instead of IN's own");
   command
       ->add_option("--frame-rate", arguments->frame_rate_hz,
                    "Pictures a second of a COLMAP model: a picture's time is the number that ends "
                    "its name, divided by this")
       ->check(NumberRange(1e-3, 1e6));
-  command->add_option("--extrinsics", arguments->extrinsics,
-                      "sensor.yaml of a EuRoC camera: its T_BS stands between the body, whose path "
-                      "EuRoC files tell, and the camera; without it the camera is the body");
+  command->add_option(
+      "--extrinsics", arguments->extrinsics,
+      "sensor.yaml of a EuRoC camera: its T_BS maps between the body, whose trajectory EuRoC files "
+      "hold, and the camera; without it the camera is the body");
   command
       ->add_option("--axes", arguments->axes,
-                   "How the path's reference lies, for glTF: z-up (a marker on the ground), y-up "
-                   "(a marker on a wall) or y-down (many reconstructions)")
+                   "Orientation of the trajectory's frame of reference, for glTF: z-up (a marker "
+                   "on the ground), y-up (a marker on a wall) or y-down (many reconstructions)")
       ->check(CLI::IsMember({"z-up", "y-up", "y-down"}))
       ->capture_default_str();
   command
       ->add_option("--scale", arguments->scale,
-                   "Metres of one unit of IN: reconstructions know no scale")
+                   "Metres of one unit of IN: reconstructions have no scale")
       ->check(NumberRange(1e-9, 1e9));
   command
       ->add_option("--marker-size-mm", arguments->marker_size_mm,

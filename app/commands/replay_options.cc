@@ -10,7 +10,7 @@ namespace pleinair::app {
 void AddReplayOptions(CLI::App& command, ReplayArguments& arguments) {
   command
       .add_option("RECORDING", arguments.paths.recording,
-                  "Folder of a recording (own form or EuRoC), or a video file")
+                  "Folder of a recording (pleinair's own or EuRoC's), or a video file")
       ->required();
   command.add_option("-o,--output", arguments.paths.output, "Folder for the results")->required();
   command.add_option("--scene", arguments.paths.scene,
@@ -21,8 +21,8 @@ void AddReplayOptions(CLI::App& command, ReplayArguments& arguments) {
                    "Also write every frame as a PNG picture");
   command
       .add_option("--export", arguments.exports,
-                  "Also write the camera's path for other programs: gltf (camera.glb), colmap "
-                  "or colmap-binary (colmap/), euroc (poses/MARKER.csv), mcap (camera.mcap)")
+                  "Also write the camera's trajectory for other programs: gltf (camera.glb), "
+                  "colmap or colmap-binary (colmap/), euroc (poses/MARKER.csv), mcap (camera.mcap)")
       ->delimiter(',')
       ->check(CLI::IsMember({"gltf", "colmap", "colmap-binary", "euroc", "mcap"}))
       ->type_name("FORM,...");
@@ -30,9 +30,8 @@ void AddReplayOptions(CLI::App& command, ReplayArguments& arguments) {
   AddLightOptions(command, arguments.options.light);
   command
       .add_option("--fog", arguments.fog,
-                  "Haze before the virtual objects and their shadows, times the day's own air; "
-                  "one number, or one a "
-                  "partition from near to far; 0 none. Default: 1")
+                  "Haze in front of the virtual objects and their shadows, as a multiple of the "
+                  "day's own; one number, or one a partition from near to far; 0: none. Default: 1")
       ->delimiter(',')
       ->expected(1, 4)
       ->check(NumberRange(0.0, 1e6))

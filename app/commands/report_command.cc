@@ -52,8 +52,8 @@ Result<void> Merge(const MergeOptions& options) {
     std::cerr << "pleinair report: skipped " << message << '\n';
   }
   if (written.skipped.empty()) return {};
-  return SystemError(output, "the report is without what could not be measured",
-                     "mend it and run the shards again: what is done stays");
+  return SystemError(output, "the report lacks what could not be measured",
+                     "correct it and run the shards again: finished parts are kept");
 }
 
 void AddMerge(CLI::App* report, CommandResult& result) {
@@ -127,7 +127,7 @@ Result<void> Diff(const DiffOptions& options) {
   if (worse == 0) return {};
   return SystemError(options.after,
                      fmt::format("{} of {} figures got significantly worse", worse, changes.size()),
-                     "see the lines above that say so");
+                     "see the lines above");
 }
 
 void AddDiff(CLI::App* report, CommandResult& result) {
@@ -137,7 +137,8 @@ void AddDiff(CLI::App* report, CommandResult& result) {
   command->footer(kDiffExamples);
   command->add_option("OLD", options->before, "Folder of the run before")->required();
   command->add_option("NEW", options->after, "Folder of the run after")->required();
-  command->add_option("--detector", options->detector, "Whose figures")->capture_default_str();
+  command->add_option("--detector", options->detector, "Detector whose figures are compared")
+      ->capture_default_str();
   command->add_option("--alpha", options->alpha, "Chance of a false alarm, over all figures")
       ->check(NumberRange(1e-9, 0.5))
       ->capture_default_str();

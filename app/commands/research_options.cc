@@ -56,7 +56,7 @@ void AddResearchOptions(CLI::App& command, ReplayArguments& arguments) {
       ->check(NumberRange(0.01, 100.0))
       ->capture_default_str();
   command.add_flag("--shadow-debug", composer.show_shadow_maps,
-                   "Tint what each partition of the shadow maps serves and show the maps");
+                   "Tint surfaces by shadow-map partition and show the maps");
   command
       .add_option("--shader-dir", arguments.research.shader_directory,
                   "Folder with shaders to use instead of the built-in ones, for development")

@@ -31,7 +31,7 @@ constexpr const char* kSunExamples =
     "      the year's sun paths as architects draw them (SVG or PNG)\n"
     "Columns: azimuth_deg clockwise from true north; elevation_deg without air;\n"
     "elevation_refracted_deg as seen; distance_au.\n"
-    "A zone of the IANA database stands in brackets: 2025-09-14T13:05:00[Europe/Prague].\n"
+    "A zone of the IANA database is written in brackets: 2025-09-14T13:05:00[Europe/Prague].\n"
     "The day of --time is that of its offset or zone, or with Z that of local mean solar time.\n";
 
 constexpr int kFirstYear = 1678;
@@ -92,8 +92,7 @@ Result<void> RunSunPath(const SunArguments& arguments, const sky::Observer& obse
   }
   if (arguments.path.year != 0) path.year = arguments.path.year;
   if (path.year == 0) {
-    return InputError("--path", "which year is meant is not said",
-                      "give --year, for example --year 2025");
+    return InputError("--path", "the year is not given", "give --year, for example --year 2025");
   }
   return WriteSunPath(observer, path);
 }
@@ -101,7 +100,7 @@ Result<void> RunSunPath(const SunArguments& arguments, const sky::Observer& obse
 Result<void> RunSun(const CLI::App& command, const SunArguments& arguments) {
   PLEINAIR_RETURN_IF_ERROR(
       RefuseUnusedOptions(command, {{"--utc-offset", arguments.span.until.empty(),
-                                     "days and pictures; a span is told in UTC"}}));
+                                     "days and pictures; a span is given in UTC"}}));
   const sky::SunModel model =
       arguments.model == "paper" ? sky::SunModel::kPaper : sky::SunModel::kPrecise;
   const SunRowsOptions rows{model, arguments.json, arguments.output};
@@ -177,7 +176,7 @@ void AddSunCommand(CLI::App& app, CommandResult& result) {
   CLI::Option* offset =
       command
           ->add_option("--utc-offset", arguments->span.utc_offset,
-                       "Clock that tells days and hours: local time minus UTC, as +02:00")
+                       "Clock for days and hours: local time minus UTC, as +02:00")
           ->type_name("OFFSET");
   CLI::Option* csv =
       command

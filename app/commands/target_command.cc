@@ -34,7 +34,7 @@ constexpr const char* kTargetExamples =
     "  pleinair target poster.jpg --width-mm 420 -o poster.target --preview features.png --json\n"
     "  pleinair detect photo.jpg --calibration camera.yaml --target poster.target\n"
     "The width is that of the printed picture, without the paper's margin. Crop the picture to\n"
-    "what is printed; it must lie flat. docs/guide/picture-targets.md tells which pictures are "
+    "what is printed; it must lie flat. docs/guide/picture-targets.md explains which pictures are "
     "good.\n";
 
 const char* RatingWord(int score) { return score >= 60 ? "good" : score >= 30 ? "fair" : "poor"; }
@@ -170,7 +170,7 @@ void AddTargetCommand(CLI::App& app, CommandResult& result) {
       ->required();
   command
       ->add_option("--name", arguments->name,
-                   "What detections call it (default: the picture's name without its ending)")
+                   "Name in the detections (default: the picture's file name without its ending)")
       ->type_name("NAME");
   command->add_option("--preview", arguments->preview, "PNG to write that shows the features found")
       ->type_name("F.png");

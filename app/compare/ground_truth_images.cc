@@ -35,7 +35,7 @@ Result<std::vector<GroundTruthImage>> OfKeyFrames(const fs::path& folder, const 
     for (const fs::path& file : {picture.truth, picture.object, picture.shadow}) {
       if (!file.empty() && !IsFile(file)) {
         return InputError(file.string(), "is missing, though scene.json names it",
-                          "fetch the whole recording");
+                          "get the whole recording");
       }
     }
     pictures.push_back(std::move(picture));
@@ -55,14 +55,14 @@ Result<std::vector<GroundTruthImage>> FindKeyFrames(const fs::path& folder, bool
     return OfKeyFrames(folder, json, glossy);
   } catch (const Json::exception& problem) {
     return InputError(scene.string(), std::string("cannot be read: ") + problem.what(),
-                      "mend its key_frames");
+                      "correct its key_frames");
   }
 }
 
 Result<std::vector<GroundTruthImage>> FindGroundTruthImages(const fs::path& folder, bool glossy) {
   std::error_code error;
   if (!fs::is_directory(folder, error)) {
-    return InputError(folder.string(), "is no folder", "name a recording with true pictures");
+    return InputError(folder.string(), "is no folder", "name a recording with ground-truth images");
   }
   PLEINAIR_ASSIGN_OR_RETURN(std::vector<GroundTruthImage> pictures, FindKeyFrames(folder, glossy));
   if (!IsFile(folder / "scene.json")) {
@@ -74,7 +74,7 @@ Result<std::vector<GroundTruthImage>> FindGroundTruthImages(const fs::path& fold
               [](const GroundTruthImage& a, const GroundTruthImage& b) { return a.name < b.name; });
   }
   if (pictures.empty()) {
-    return InputError(folder.string(), "has no true picture",
+    return InputError(folder.string(), "has no ground-truth image",
                       "name a recording whose scene.json lists key_frames, or a folder of PNGs");
   }
   return pictures;
@@ -84,7 +84,7 @@ Result<fs::path> FindPicture(const fs::path& folder, const std::string& name) {
   for (const fs::path& file : {folder / "frames" / (name + ".png"), folder / (name + ".png")}) {
     if (IsFile(file)) return file;
   }
-  return InputError(folder.string(), "has no picture " + name + ".png",
+  return InputError(folder.string(), "has no image " + name + ".png",
                     "replay the whole recording with --frames");
 }
 

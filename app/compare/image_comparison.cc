@@ -21,7 +21,7 @@ Result<Image<std::uint8_t>> ReadRegion(const std::filesystem::path& file, const 
   if (file.empty()) return Image<std::uint8_t>();
   PLEINAIR_ASSIGN_OR_RETURN(devices::DecodedImage picture, devices::DecodeImageFile(file));
   if (picture.grey.width() != truth.width() || picture.grey.height() != truth.height()) {
-    return InputError(file.string(), "is not of the true picture's size", "fetch it again");
+    return InputError(file.string(), "is not of the ground-truth image's size", "fetch it again");
   }
   return std::move(picture.grey);
 }
@@ -35,7 +35,7 @@ Result<ComparedPicture> ComparePicture(const std::filesystem::path& pictures,
   PLEINAIR_ASSIGN_OR_RETURN(const RgbImage truth, ReadPicture(of.truth));
   if (picture.width() != truth.width() || picture.height() != truth.height()) {
     return InputError(file.string(),
-                      fmt::format("has {}x{} pixels, the true picture {}x{}", picture.width(),
+                      fmt::format("has {}x{} pixels, the ground-truth image {}x{}", picture.width(),
                                   picture.height(), truth.width(), truth.height()),
                       "replay without --size");
   }

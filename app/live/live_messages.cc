@@ -120,7 +120,7 @@ void Report(const LiveStatistics& s, bool json) {
                              s.latency.median_ms, s.latency.p95_ms, s.latency.worst_ms);
   }
   if (s.recording.recorded > 0) {
-    std::cerr << fmt::format("{} frames recorded, {} left out because the disk was late\n",
+    std::cerr << fmt::format("{} frames recorded, {} dropped because the disk was too slow\n",
                              s.recording.recorded, s.recording.left_out);
   }
 }

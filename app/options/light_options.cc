@@ -20,8 +20,8 @@ void AddLightOptions(CLI::App& command, session::LightOptions& options) {
           [&options](const std::string& from) {
             options.overrides.as_described = from == "stated";
           },
-          "measured: sun, sky and heading from the shadows that phantoms cast in the "
-          "frames; stated: as the scene says")
+          "measured: sun, sky and heading from the shadows that phantoms cast in the frames; "
+          "stated: from the scene")
       ->check(CLI::IsMember({"measured", "stated"}))
       ->default_str("measured");
   command.add_option("--light-cache", options.cache,
@@ -39,13 +39,13 @@ void AddLightOptions(CLI::App& command, session::LightOptions& options) {
   command
       .add_option_function<std::string>(
           "--look", [&options](const std::string& look) { options.match_look = look == "matched"; },
-          "matched: drawn pixels get the blur and the grain of the frames', measured on "
-          "the marker; clean: they stay as sharp as they are drawn")
+          "matched: virtual objects get the blur and the noise of the frames, measured on the "
+          "marker; clean: they stay sharp")
       ->check(CLI::IsMember({"matched", "clean"}))
       ->default_str("matched");
   command.add_flag("--hands", options.hands_in_front,
-                   "What covers part of the marker (S-G markers and picture targets) is before "
-                   "the virtual objects, as far as its colour tells where it ends");
+                   "What covers part of the marker (S-G markers and picture targets) is shown in "
+                   "front of the virtual objects; its outline is found by its color");
 }
 
 void AddSolverOptions(CLI::App& command, session::LightOptions& options) {
@@ -58,14 +58,14 @@ void AddSolverOptions(CLI::App& command, session::LightOptions& options) {
       ->capture_default_str();
   command
       .add_option("--convergence", options.convergence,
-                  "Daylight coefficients: reflections are followed until the last adds less than "
-                  "this share of all light")
+                  "Daylight coefficients: interreflections are computed until a bounce adds less "
+                  "than this share of all light")
       ->check(NumberRange(0.0001, 0.2))
       ->capture_default_str();
   command
       .add_option("--light-patches", options.overrides.max_patches,
-                  "Places where light is gathered, at most; models of more vertices share it by "
-                  "patches. More are finer and slower [100000]")
+                  "Maximum number of points where light is computed; models of more vertices share "
+                  "them by patches. More are finer and slower [100000]")
       ->check(CLI::Range(1'000, 10'000'000));
 }
 

@@ -90,7 +90,7 @@ Result<UtcTime> ParseDay(std::string_view date, std::optional<UtcOffset> offset,
     return tl::make_unexpected(std::move(error));
   }
   if (!offset) {
-    return InputError(option, "whose clock is meant is not said",
+    return InputError(option, "the clock's offset from UTC is not given",
                       "give --utc-offset too, for example --utc-offset +02:00");
   }
   return midnight->PlusSeconds(-offset->seconds());

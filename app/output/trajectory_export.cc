@@ -19,8 +19,8 @@ Result<void> CheckExports(const std::set<exports::TrajectoryFormat>& formats,
       camera.distortion_model != DistortionModel::kEquidistant) {
     return {};
   }
-  return InputError("--export", "a glTF camera is a perspective one, and the lens a fisheye",
-                    "undistort the pictures and calibrate those, or leave gltf out");
+  return InputError("--export", "a glTF camera is perspective, but the lens is a fisheye",
+                    "undistort the images and calibrate those, or leave gltf out");
 }
 
 Result<std::vector<std::string>> WriteMarkerTrajectory(

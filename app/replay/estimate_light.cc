@@ -11,7 +11,7 @@ namespace pleinair::app {
 Result<void> EstimateLight(ReplayState& state) {
   if (state.report.path.empty() || !state.renderer().CanMeasureLight()) return {};
   PLEINAIR_ASSIGN_OR_RETURN(devices::Recording recording, state.OpenRecording());
-  PassBar bar("Reading the light", state.report.call.recording);
+  PassBar bar("Estimating light", state.report.call.recording);
   return session::EstimateLight(*state.pipeline, std::move(recording),
                                 {bar.Progress(), &state.times});
 }

@@ -41,7 +41,8 @@ std::string NeverSeen(const ReplayReport& report, const scene::MarkerDescription
                   Described(marker), seen.empty() ? " no other either" : seen);
   if (marker.id && marker.family.value_or("sg") == "sg") {
     sentence += fmt::format(
-        " Of S-G markers only number {} was looked for: without the id in the scene all are.",
+        " Of the S-G markers, only number {} was searched for; to search for all, remove the id "
+        "from the scene.",
         *marker.id);
   }
   return sentence;
@@ -62,16 +63,17 @@ std::vector<std::string> MarkerWarnings(const ReplayReport& report,
                     missing, report.film.frames, report.reference_marker->ToString()));
   }
   if (marker_tracks.frames_with_duplicates() > 0) {
-    warnings.push_back(fmt::format(
-        "{} frames show a marker of the same number twice: the one nearest to its last place "
-        "counts.",
-        marker_tracks.frames_with_duplicates()));
+    warnings.push_back(
+        fmt::format("{} frames show a marker of the same number twice: the one nearest to its last "
+                    "position is used.",
+                    marker_tracks.frames_with_duplicates()));
   }
   const std::int64_t ambiguous = SummarizeTrajectory(report.path).ambiguous_frames;
   if (ambiguous > 0) {
-    warnings.push_back(fmt::format(
-        "In {} frames the marker is too small or too frontal to tell its tilt for certain.",
-        ambiguous));
+    warnings.push_back(
+        fmt::format("In {} frames the marker's tilt is ambiguous: it is too small or seen too "
+                    "frontally. Film from nearer or more from the side.",
+                    ambiguous));
   }
   return warnings;
 }
@@ -95,7 +97,7 @@ std::vector<std::string> ModelWarnings(const std::vector<compositor::PlacedModel
         unsupported_features.size() - std::min(unsupported_features.size(), kMaxKinds);
     for (std::size_t i = 0; i < more; ++i)
       unsupported_features.erase(std::prev(unsupported_features.end()));
-    warnings.push_back(fmt::format("Of {} this is not drawn: {}{}.", file.string(),
+    warnings.push_back(fmt::format("{} uses features that are not drawn: {}{}.", file.string(),
                                    fmt::join(unsupported_features, ", "),
                                    more > 0 ? fmt::format(" and {} more", more) : ""));
   }
@@ -116,59 +118,61 @@ std::vector<std::string> LightWarnings(const session::LightSummary& summary) {
   std::vector<std::string> warnings;
   if (summary.exposure_scale_source == session::LightSummary::ExposureScaleSource::kGuess) {
     warnings.emplace_back(
-        "The marker could not be read as a light meter in any frame: the camera's gain is a guess. "
-        "Set it in the scene if the brightness is wrong.");
+        "The exposure could not be estimated from the marker in any frame and is guessed. Set "
+        "exposure_gain in the scene if the brightness is wrong.");
   }
   if (summary.exposure_scale_change > kNoticeableExposureChange) {
-    warnings.push_back(fmt::format(
-        "The marker's brightness changed by a factor of {:.1f}. That is taken for the camera's "
-        "exposure, sun and sky for the same throughout: if a cloud passed, shadows are too deep or "
-        "too faint before or after it. Replay the parts one by one, or lock the exposure.",
-        summary.exposure_scale_change));
+    warnings.push_back(
+        fmt::format("The marker's brightness changed by a factor of {:.1f}. It is attributed to "
+                    "the camera's exposure, and sun and sky are assumed constant: if a cloud "
+                    "passed, shadows are too dark or too faint before or after it. Replay the "
+                    "parts one by one, or film with locked exposure.",
+                    summary.exposure_scale_change));
   }
   const double elevation_deg = ToDegrees(summary.sun.elevation);
   if (elevation_deg < kNightDeg) {
-    warnings.push_back(fmt::format(
-        "At the scene's time it is night there: the sun stands {:.1f} degrees below the horizon. "
-        "Check place, time and the time's offset from UTC.",
-        -elevation_deg));
+    warnings.push_back(
+        fmt::format("It is night at the scene's place and time: the sun is {:.1f} degrees below "
+                    "the horizon. Check place, time and the time's offset from UTC.",
+                    -elevation_deg));
   }
   const bool measured = light.sun_source == compositor::MeasuredLight::Source::kMeasured;
   const bool denied = measured && !light.sun_shines && light.sun_to_sky_stated > kNoticeableSun;
   if (denied && light.evidence.edges_agreeing == 0) {
     warnings.push_back(
-        "Planes are lit as no sun would light them: the sky is taken as overcast. If the sun "
+        "The brightness of the surfaces shows no sunlight: the sky is assumed overcast. If the sun "
         "shone, check place, time and heading, or give --sun-to-sky.");
   } else if (denied) {
-    warnings.push_back(fmt::format(
-        "No shadow lies where the phantoms would cast one ({} places looked at): the sky is taken "
-        "as overcast. If the sun shone, check place, time and heading, or give --sun-to-sky.",
-        light.evidence.edges));
+    warnings.push_back(
+        fmt::format("No shadow was found where the phantoms would cast one ({} shadow edges "
+                    "checked): the sky is assumed overcast. If the sun shone, check place, time "
+                    "and heading, or give --sun-to-sky.",
+                    light.evidence.edges));
   }
   if (measured && light.sun_shines && light.sun_to_sky_stated <= kNoticeableSun) {
     warnings.push_back(
-        fmt::format("The phantoms' shadows are seen ({} places): the sun is taken to shine, though "
-                    "the scene says otherwise.",
+        fmt::format("The phantoms' shadows are visible ({} shadow edges): the sun is assumed to "
+                    "shine, although the scene describes an overcast sky.",
                     light.evidence.edges_agreeing));
   }
   if (light.sun_source == compositor::MeasuredLight::Source::kMarker &&
       light.sun_to_sky_stated <= kNoticeableSun) {
     warnings.push_back(
-        "A shadow's edge divides the marker: the sun is taken to shine, though the scene says "
-        "otherwise.");
+        "A shadow edge crosses the marker: the sun is assumed to shine, although the scene "
+        "describes an overcast sky.");
   }
   if (light.sun_doubtful) {
     warnings.push_back(fmt::format(
-        "No shadow lies where the phantoms would cast one ({} places looked at), but others lie "
-        "elsewhere: whether the sun shone is doubtful, and the sky stays as the scene says. Check "
-        "place, time and heading, or give --sun-to-sky.",
+        "No shadow was found where the phantoms would cast one ({} shadow edges checked), but "
+        "shadows lie elsewhere: it is uncertain whether the sun shone, and the scene's sky is "
+        "kept. Check place, time and heading, or give --sun-to-sky.",
         light.evidence.edges));
   }
   const double turn_deg = ToDegrees(light.heading_offset);
   if (std::abs(turn_deg) > kNoticeableTurnDeg) {
     warnings.push_back(
-        fmt::format("Shadows lie where they would if the marker's heading were {:+.1f} degrees "
-                    "more: that is used. Put it into the scene if it is right.",
+        fmt::format("The shadows fit a marker heading {:+.1f} degrees from the scene's, and this "
+                    "heading is used. Correct marker.heading_deg in the scene if it is right.",
                     turn_deg));
   }
   return warnings;

@@ -57,7 +57,7 @@ Result<SkyFileKind> SkyFileKindOf(const std::string& name) {
   if (ending == ".exr") return SkyFileKind::kExr;
   if (ending == ".hdr") return SkyFileKind::kHdr;
   if (ending == ".mp4") return SkyFileKind::kMp4;
-  return InputError(name, "is no kind of picture that can be written",
+  return InputError(name, "is not a supported picture format",
                     "name a file that ends in .png, .exr, .hdr or .mp4");
 }
 

@@ -30,7 +30,7 @@ Result<SkyMoment> ParseSunOption(const std::string& text) {
   const double elevation =
       files::ParseNumber(view.substr(std::min(comma + 1, view.size()))).value_or(kNone);
   if (std::fabs(azimuth) > 360.0 || std::fabs(elevation) > 90.0) {
-    return InputError("--sun", "\"" + text.substr(0, 60) + "\" is no place of the sun",
+    return InputError("--sun", "\"" + text.substr(0, 60) + "\" is not a position of the sun",
                       "write its azimuth (-360 to 360) and elevation (-90 to 90) in degrees, for "
                       "example 180,35");
   }

@@ -235,9 +235,10 @@ void AddSkyOptions(CLI::App& command, SkyOptions& options) {
       ->type_name("AZ")
       ->check(NumberRange(-360.0, 360.0))
       ->capture_default_str();
-  CLI::Option* disc = command.add_flag(
-      "--disc", options.picture.disc, "Draw the sun's disc (PNG and video do without being asked)");
-  command.add_flag("--no-disc", options.picture.no_disc, "Leave it out")->excludes(disc);
+  CLI::Option* disc = command.add_flag("--disc", options.picture.disc,
+                                       "Draw the sun's disc (the default for PNG and video)");
+  command.add_flag("--no-disc", options.picture.no_disc, "Do not draw the sun's disc")
+      ->excludes(disc);
   command
       .add_option("--exposure", options.picture.ev100,
                   "EV at ISO 100 of a PNG or video; without it as an eye adapts")

@@ -222,7 +222,7 @@ class LiveWindow {
 
   void DrawWaiting(Vec2 area) const {
     const std::string words = state_.status.camera.empty()
-                                  ? std::string("waiting for the first picture…")
+                                  ? std::string("waiting for the first image…")
                                   : state_.status.camera;
     const float letter = ImGui::GetFontSize();
     const auto width = static_cast<float>(area.x), height = static_cast<float>(area.y);

@@ -12,9 +12,9 @@ std::string MeasuredSunText(const compositor::MeasuredLight& drawn,
       case Source::kMeasured:
         return fmt::format("{} edges", measured.evidence.edges_agreeing);
       case Source::kShade:
-        return "the shade of trees";
+        return "the shadows of trees";
       case Source::kMarker:
-        return "a shadow's edge on the marker";
+        return "a shadow edge on the marker";
       case Source::kDescription:
       case Source::kOverride:
         return "";
@@ -29,7 +29,7 @@ std::string MeasuredSunText(const compositor::MeasuredLight& drawn,
 
 std::string MeasuredHeadingText(const compositor::MeasuredLight& measured) {
   if (measured.heading_source != compositor::MeasuredLight::Source::kMeasured) return "";
-  return fmt::format("measured: {:+.2f}° ± {:.2f}° from the stated one",
+  return fmt::format("measured: {:+.2f}° ± {:.2f}° from the scene's",
                      ToDegrees(measured.heading_offset),
                      ToDegrees(measured.heading_error.value_or(Radians())));
 }

@@ -75,8 +75,7 @@ void Fog(compositor::ComposerOptions* drawing) {
   double fog = *std::max_element(drawing->fog.begin(), drawing->fog.end());
   constexpr double kThickest = 5000.0;
   if (Slider("fog ×", &fog, 0.0, kThickest, "%.1f", true)) drawing->fog.fill(fog);
-  Hint(
-      "How much more the air veils than the sky's own air does: 1 a clear day, some hundreds fog.");
+  Hint("Haze relative to the sky model's own: 1 is a clear day, some hundreds are fog.");
   if (drawing->shadow_partitions < 2) return;
   constexpr double kNone = 0.0;
   ImGui::DragScalarN("by partition", ImGuiDataType_Double, drawing->fog.data(),
@@ -155,7 +154,7 @@ void ScenePanel::PlaceAndTime(UtcTime now, WindowState* state) {
   SunOverTheDay(offset.seconds(), *state);
   if (ImGui::Button("Now")) Do(Action::kNow, false, now, state);
   ImGui::SameLine();
-  if (ImGui::Button("Time of the pictures")) Do(Action::kAsRecorded, false, now, state);
+  if (ImGui::Button("Time of the images")) Do(Action::kAsRecorded, false, now, state);
 }
 
 void ScenePanel::SunOverTheDay(double utc_offset_s, const WindowState& state) {
@@ -216,9 +215,11 @@ void ScenePanel::Air(WindowState* state) {
   if (ImGui::Checkbox("by hand", &by_hand)) {
     edit.sky = by_hand ? std::optional(sky) : std::nullopt;
   }
-  Hint("Otherwise haze and clouds are as the shadows in the pictures tell, or as the scene says.");
+  Hint(
+      "Otherwise haze and clouds are estimated from the shadows in the images or come from the "
+      "scene.");
   if (state->status.statistics.light.frames_in_estimate > 0) {
-    Quiet("looking at shadows…");
+    Quiet("estimating from shadows…");
   } else if (!edit.sky) {
     Quiet(MeasuredSunText(state->frame.light.measured, state->status.statistics.light.measured));
   }
@@ -262,7 +263,7 @@ void ScenePanel::Objects(WindowState* state) {
     place = Scaled(state->boxes[state->selected], place, scale / place.scale,
                    UpOf(state->scene.marker));
   }
-  if (ImGui::Button("As it was")) Do(Action::kResetObject, false, {}, state);
+  if (ImGui::Button("Reset")) Do(Action::kResetObject, false, {}, state);
 }
 
 void ScenePanel::Shadows(WindowState* state) {
@@ -293,31 +294,31 @@ void ScenePanel::Shadows(WindowState* state) {
   }
   ImGui::Checkbox("show partitions and maps", &drawing.show_shadow_maps);
   Hint(
-      "M. Tints what each partition of the shadow maps serves (red the finest, then green, blue, "
-      "yellow) and shows the maps in the corner. Without a sun there are none.");
+      "M. Tints surfaces by shadow-map partition (red the finest, then green, blue, yellow) and "
+      "shows the maps in the corner. Without a sun there are none.");
   const bool moments = in_use.content == shadows::MapContent::kMoments ||
                        in_use.content == shadows::MapContent::kWarpedMoments;
   if (!moments) return;
   Slider("λ", &drawing.shadow_split_weight, 0.0, 1.0, "%.2f");
-  Hint("How the partitions divide the view's depth: 0 evenly, 1 by equal ratios (Eq. 11).");
+  Hint("How the partitions divide the view's depth: 0 evenly, 1 logarithmically (Eq. 11).");
   Slider("blur m", &drawing.shadow_blur_distance_m, 0.05, 20.0, "%.2f", true);
-  Hint("The shadows' edges are as soft as those of something so far from the ground.");
+  Hint("Shadow edges are as soft as those of an object at this distance from the ground.");
 }
 
 void ScenePanel::Light(WindowState* state) {
   session::SceneEdit& edit = state->edit;
   Fog(&edit.drawing);
   Slider("convergence", &edit.convergence, 1e-4, 0.2, "%.4f", true);
-  Hint("Reflections among surfaces are followed until one more adds less than this share.");
+  Hint("Interreflections are computed until one more bounce adds less than this share.");
   constexpr const char* kDetails[] = {"automatic", "fine", "fast", "coarse"};
   int detail = static_cast<int>(edit.detail);
   if (ImGui::Combo("detail", &detail, kDetails, 4))
     edit.detail = static_cast<session::Detail>(detail);
-  Hint("Automatic: as fine as keeps up with the camera.");
+  Hint("Automatic: the finest detail that keeps up with the camera.");
   const double share = state->status.statistics.light.coefficients;
   if (share < 1.0 && !state->boxes.empty()) {
     ImGui::ProgressBar(static_cast<float>(share), {-1.0F, ImGui::GetFontSize() * 0.5F}, "");
-    Hint("Where light comes from is being worked out; after that it follows every change at once.");
+    Hint("Light transport is being computed; afterwards the light follows every change at once.");
   }
 }
 
@@ -326,8 +327,8 @@ void ScenePanel::Capture(WindowState* state) {
   bool locked = state->exposure_locked;
   if (ImGui::Checkbox("lock exposure", &locked)) Do(Action::kLockExposure, false, {}, state);
   Hint(
-      "Holds the camera's exposure, gain and white balance where they are, and the brightness that "
-      "the marker last gave the objects: they then follow the time of day and the air alone.");
+      "Locks the camera's exposure, gain and white balance, and the exposure last estimated from "
+      "the marker: the objects' brightness then follows the time of day and the haze alone.");
   if (ImGui::Button("Screenshot")) state->requests.screenshot = true;
   ImGui::SameLine();
   if (state->status.recording) ImGui::PushStyleColor(ImGuiCol_Button, {0.75F, 0.15F, 0.15F, 1.0F});
@@ -338,7 +339,7 @@ void ScenePanel::Capture(WindowState* state) {
 
 void ScenePanel::Statistics(const WindowState& state) {
   const LiveStatistics& s = state.status.statistics;
-  ImGui::Text("%.1f pictures a second shown, %.1f sent", state.status.shown_per_second,
+  ImGui::Text("%.1f images a second shown, %.1f sent", state.status.shown_per_second,
               s.timing.period_ms > 0.0 ? 1000.0 / s.timing.period_ms : 0.0);
   ImGui::Text("exposure to screen %.0f ms (95 %%: %.0f)", s.latency.median_ms, s.latency.p95_ms);
   ImGui::Text("tracking %.1f ms, drawing %.1f ms", s.timing.track_ms, s.timing.draw_ms);

@@ -86,13 +86,13 @@ Result<std::array<double, 8>> CoefficientsOf(const Readings& readings, Distortio
 
 Result<CameraModel> Judge(const Readings& readings, const std::string& name) {
   if (!readings.width || !readings.height) {
-    return InputError(name, "does not say how many pixels the picture has",
+    return InputError(name, "does not say how many pixels the image has",
                       "add image_width and image_height");
   }
   if (*readings.width < 1 || *readings.height < 1 || *readings.width > kMaxSide ||
       *readings.height > kMaxSide) {
     return InputError(name,
-                      "is for a picture of " + std::to_string(*readings.width) + "x" +
+                      "is for an image of " + std::to_string(*readings.width) + "x" +
                           std::to_string(*readings.height) + " pixels, which cannot be",
                       "the sides must be 1 to 100000");
   }
@@ -114,7 +114,7 @@ Result<CameraModel> Judge(const Readings& readings, const std::string& name) {
   }
   if (camera.fx <= 0.0 || camera.fy <= 0.0) {
     return InputError(name, "has a focal length that is not greater than zero",
-                      "fx and fy are in pixels, about as many as the picture is wide");
+                      "fx and fy are in pixels, about as many as the image is wide");
   }
   PLEINAIR_ASSIGN_OR_RETURN(camera.distortion_model, ModelOf(readings, name));
   PLEINAIR_ASSIGN_OR_RETURN(camera.distortion,
@@ -164,7 +164,7 @@ Result<void> SizeFromList(const files::JsonFields& fields, std::initializer_list
     return std::trunc(side) == side && std::fabs(side) < 1e9;
   });
   if (size->size() != 2 || !whole) {
-    return InputError(fields.name(), "has a picture size that is not [width, height]", kRemedy);
+    return InputError(fields.name(), "has an image size that is not [width, height]", kRemedy);
   }
   readings->width = static_cast<int>((*size)[0]);
   readings->height = static_cast<int>((*size)[1]);

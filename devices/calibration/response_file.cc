@@ -61,7 +61,7 @@ Result<CameraResponse> SampledResponse(const files::JsonFields& fields) {
   auto response = CameraResponse::FromSamples(*encoded, light);
   if (!response) {
     return fields.Fail("encoded", "and the light do not both rise from 0 to 1",
-                       "write codes / 255 and light / the brightest, in rising order");
+                       "write pixel values / 255 and light / the brightest, in rising order");
   }
   return *response;
 }
@@ -110,7 +110,7 @@ Result<CameraResponse> ReadCameraResponse(const std::filesystem::path& file) {
   PLEINAIR_ASSIGN_OR_RETURN(const auto gamma, fields.Number("gamma"));
   if (!gamma || *gamma < kMinGamma || *gamma > kMaxGamma) {
     return fields.Fail("gamma", gamma ? "is out of range" : "is missing",
-                       "give the power from code to light, 0.2 to 5; 2.2 is usual");
+                       "give the exponent from pixel value to light, 0.2 to 5; 2.2 is usual");
   }
   return PowerResponse(*gamma);
 }

@@ -57,7 +57,7 @@ Result<CameraUri> ParseCameraUri(std::string_view text) {
     if (value.empty()) return fail("names nothing after the colon");
     return CameraUri{scheme.backend, key, std::string(value)};
   }
-  return fail("is of no kind that there is");
+  return fail("is of an unknown kind");
 }
 
 }  // namespace pleinair::devices

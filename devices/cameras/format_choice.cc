@@ -79,9 +79,9 @@ Result<FormatChoice> ChooseFormat(const std::vector<FormatDescription>& formats,
   const std::string wanted = requested.format ? std::string(NameOf(*requested.format)) : "";
   return InputError(where,
                     requested.format ? "does not send " + wanted + " but " + names
-                                     : "sends no pictures that are read here, but " +
+                                     : "sends no supported format, but " +
                                            (names.empty() ? std::string("nothing") : names),
-                    requested.format ? "ask for one of these, or for none in particular"
+                    requested.format ? "request one of these, or leave the format out"
                                      : "use it through libcamera, or another camera");
 }
 
@@ -89,17 +89,17 @@ std::vector<std::string> Differences(const FormatRequest& requested,
                                      const NegotiatedFormat& negotiated) {
   std::vector<std::string> details;
   if (requested.format && *requested.format != negotiated.format) {
-    details.push_back("asked for " + std::string(NameOf(*requested.format)) + ", got " +
+    details.push_back("requested " + std::string(NameOf(*requested.format)) + ", got " +
                       std::string(NameOf(negotiated.format)));
   }
   if (requested.size && *requested.size != negotiated.size) {
-    details.push_back("asked for " + Text(*requested.size) + ", got " + Text(negotiated.size));
+    details.push_back("requested " + Text(*requested.size) + ", got " + Text(negotiated.size));
   }
   if (requested.rate_hz && !negotiated.rate_hz) {
-    details.push_back("asked for " + Text(*requested.rate_hz) + ", but the camera says no rate");
+    details.push_back("requested " + Text(*requested.rate_hz) + ", but the camera reports no rate");
   } else if (requested.rate_hz &&
              std::fabs(*requested.rate_hz - *negotiated.rate_hz) > 0.01 * *requested.rate_hz) {
-    details.push_back("asked for " + Text(*requested.rate_hz) + ", got " +
+    details.push_back("requested " + Text(*requested.rate_hz) + ", got " +
                       Text(*negotiated.rate_hz));
   }
   return details;

@@ -276,7 +276,7 @@ class LiveCamera::Worker {
     const auto silent = Clock::now() - stream_.last_picture;
     if (silent < stall_limit_) return;
     if (!std::exchange(stream_.reported_stall, true)) {
-      Report(CameraEvent::Kind::kStalled, "the camera is there but sends no pictures");
+      Report(CameraEvent::Kind::kStalled, "the camera is connected but sends no images");
       const std::lock_guard lock(mutex_);
       ++status_.counts.stalls;
     }

@@ -34,7 +34,7 @@ std::uint32_t FourBytesAt(std::string_view bytes, std::size_t at) {
 }
 
 tl::unexpected<Error> CutShort(const std::string& name) {
-  return InputError(name, "is cut short: the picture's end is missing", kWholeCopy);
+  return InputError(name, "is cut short: the image's end is missing", kWholeCopy);
 }
 
 Result<ImageSize> Judge(std::uint32_t width, std::uint32_t height, const std::string& name) {
@@ -43,7 +43,7 @@ Result<ImageSize> Judge(std::uint32_t width, std::uint32_t height, const std::st
   }
   if (width > kMaxImageSide || height > kMaxImageSide) {
     return InputError(name,
-                      "is a picture of " + std::to_string(width) + "x" + std::to_string(height) +
+                      "is an image of " + std::to_string(width) + "x" + std::to_string(height) +
                           " pixels; at most " + std::to_string(kMaxImageSide) +
                           " on a side are read",
                       "scale it down");
@@ -111,7 +111,7 @@ Result<ImageSize> InspectJpeg(std::string_view bytes, const std::string& name) {
 Result<ImageSize> InspectImage(std::string_view bytes, const std::string& name) {
   if (bytes.starts_with(kPngSignature)) return InspectPng(bytes, name);
   if (bytes.starts_with(kJpegStart)) return InspectJpeg(bytes, name);
-  return InputError(name, "is neither a PNG nor a JPEG picture", "convert it to PNG");
+  return InputError(name, "is neither a PNG nor a JPEG image", "convert it to PNG");
 }
 
 Result<ImageSize> InspectImageFile(const std::filesystem::path& file) {
@@ -135,7 +135,7 @@ Result<DecodedImage> DecodeImageFile(const std::filesystem::path& file) {
     const cv::Mat encoded(1, static_cast<int>(bytes.size()), CV_8UC1, bytes.data());
     const cv::Mat bgr = cv::imdecode(encoded, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
     if (bgr.empty() || bgr.type() != CV_8UC3 || bgr.cols != size.width || bgr.rows != size.height) {
-      return InputError(file.string(), "is damaged: the picture cannot be decoded", kWholeCopy);
+      return InputError(file.string(), "is damaged: the image cannot be decoded", kWholeCopy);
     }
     return ImageFromBgr(bgr);
   } catch (const std::exception& error) {

@@ -83,7 +83,7 @@ Result<void> DecodeJpeg(const std::vector<std::uint8_t>& bytes, RgbImage* rgb) {
     return {};
   }
   const std::string why = bytes.empty() ? "it is empty" : reporter.message;
-  return InputError("", "the picture is damaged: " + why);
+  return InputError("", "the image is damaged: " + why);
 }
 
 }  // namespace pleinair::devices

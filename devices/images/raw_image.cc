@@ -212,7 +212,7 @@ std::size_t SmallestSize(const RawImage& layout) {
 
 Result<void> ConvertRawImage(const RawImage& raw, DecodedImage* image) {
   const auto damaged = [](std::string what) {
-    return InputError("", "the picture is damaged: " + std::move(what));
+    return InputError("", "the image is damaged: " + std::move(what));
   };
   if (raw.width <= 0 || raw.height <= 0 || raw.width > kMaxImageSide ||
       raw.height > kMaxImageSide) {

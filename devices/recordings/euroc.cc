@@ -41,7 +41,7 @@ Result<std::vector<EurocFrame>> ParseEurocTable(std::string_view bytes, const st
     if (frame.file.empty() || frame.file == "." || frame.file == ".." ||
         frame.file.find_first_of(std::string_view("/\\\0", 3)) != std::string::npos) {
       return InputError(where, "does not name a file in the folder data/",
-                        "write the bare name of a picture");
+                        "write the bare name of an image");
     }
     if (!frames.empty() && frame.timestamp_ns <= frames.back().timestamp_ns) {
       return InputError(where, "is not later than the line before", "sort the lines by time");

@@ -100,7 +100,7 @@ Result<std::vector<std::filesystem::path>> ListNumberedImages(const std::filesys
   }
   if (error) return InputError(folder.string(), "cannot be listed: " + error.message());
   if (by_number.empty()) {
-    return InputError(folder.string(), "has no numbered PNG or JPEG pictures",
+    return InputError(folder.string(), "has no numbered PNG or JPEG images",
                       "the frames belong there, as 0000.png and so on");
   }
   std::vector<std::filesystem::path> files;
@@ -110,7 +110,7 @@ Result<std::vector<std::filesystem::path>> ListNumberedImages(const std::filesys
       return InputError(folder.string(),
                         "lacks frame " + std::to_string(expected) + ": after it comes " +
                             file.filename().string(),
-                        "put the missing picture there or renumber the rest");
+                        "put the missing image there or renumber the rest");
     }
     ++expected;
     files.push_back(file);
@@ -119,7 +119,7 @@ Result<std::vector<std::filesystem::path>> ListNumberedImages(const std::filesys
     return InputError(folder.string(),
                       "has " + std::to_string(files.size()) + " frames, but the recording has " +
                           std::to_string(*promised),
-                      "get the missing frames, or mend frame_count and timestamps_s");
+                      "get the missing frames, or correct frame_count and timestamps_s");
   }
   return files;
 }

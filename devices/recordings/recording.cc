@@ -168,7 +168,7 @@ Result<Recording> OpenOwnFolder(const fs::path& folder, const RecordingOptions& 
   }
   if (!IsFolder(frames)) {
     return InputError(frames.string(), "the recording's frames are not there",
-                      "it must be a folder of numbered pictures or a video");
+                      "it must be a folder of numbered images or a video");
   }
   if (!manifest.frame_rate_hz) {
     const Description& user_scene = own.recording_json ? *own.recording_json : *own.scene_json;
@@ -238,11 +238,11 @@ Result<Recording> OpenEuroc(const fs::path& folder, const fs::path& camera_folde
 
 Result<Recording> OpenPlainVideo(const fs::path& file, const RecordingOptions& options) {
   if (file.extension() == ".mcap") {
-    return InputError(file.string(), "is an MCAP file, a form that is written and not read",
+    return InputError(file.string(), "is an MCAP file, a format that can be written but not read",
                       "name a recording's folder or a video (docs/guide/reference/recordings.md)");
   }
   if (!options.calibration) {
-    return InputError(file.string(), "is a plain file, which says nothing of its lens",
+    return InputError(file.string(), "is a plain file, which has no lens calibration",
                       "give --calibration FILE (docs/guide/reference/recordings.md), or name a "
                       "recording's folder");
   }
@@ -283,7 +283,7 @@ Result<Recording> OpenRecording(const fs::path& path, const RecordingOptions& op
   return InputError(path.string(),
                     "is no recording: it has neither recording.json nor scene.json nor "
                     "mav0/cam0/data.csv",
-                    "docs/guide/reference/recordings.md says what a recording is made of");
+                    "docs/guide/reference/recordings.md describes recordings");
 }
 
 }  // namespace pleinair::devices

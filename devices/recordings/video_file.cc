@@ -39,7 +39,7 @@ class VideoFile : public FrameSource {
       return InputError(name_, "cannot be decoded: " + std::string(error.what()), kWholeCopy);
     }
     if (bgr.type() != CV_8UC3 || ImageSize{bgr.cols, bgr.rows} != facts_.size) {
-      return InputError(name_, "changes its picture size at frame " + std::to_string(next_),
+      return InputError(name_, "changes its image size at frame " + std::to_string(next_),
                         "convert it to one size");
     }
     Frame frame;

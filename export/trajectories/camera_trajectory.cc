@@ -27,11 +27,11 @@ Result<void> CheckPose(const std::string& where, Vec3 shift, const Quaternion& t
   const double length = std::sqrt(Dot(turn, turn));
   if (!(std::abs(length - 1.0) <= kLengthTolerance)) {
     return InputError(where, fmt::format("has a quaternion of length {:.4g} instead of 1", length),
-                      "mend it, or get a whole copy of the file");
+                      "correct it, or get a whole copy of the file");
   }
   if (!IsNear(shift)) {
-    return InputError(where, "has a place farther off than 1e9",
-                      "mend it, or get a whole copy of the file");
+    return InputError(where, "has a position beyond 1e9",
+                      "correct it, or get a whole copy of the file");
   }
   return {};
 }
@@ -42,7 +42,7 @@ Result<void> AddPose(const std::string& where, TrajectoryPose pose, CameraTrajec
   }
   if (pose.timestamp_ns > kMaxTime_ns || pose.timestamp_ns < -kMaxTime_ns) {
     return InputError(where, "has a time stamp of more than 9e9 seconds",
-                      "mend it, or get a whole copy of the file");
+                      "correct it, or get a whole copy of the file");
   }
   path->poses.push_back(std::move(pose));
   return {};

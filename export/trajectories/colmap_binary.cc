@@ -131,7 +131,7 @@ Result<std::vector<ColmapPicture>> ParseImages(std::string_view bytes, const std
     PLEINAIR_ASSIGN_OR_RETURN(picture.camera_from_reference,
                               (PoseFromFile<Camera, Reference>(picture.where, shift, turn)));
     if (!IsPrintable(picture.name)) {
-      return InputError(picture.where, "has a picture's name that is empty or not printable",
+      return InputError(picture.where, "has an image's name that is empty or not printable",
                         kWhole);
     }
     pictures.push_back(std::move(picture));

@@ -82,7 +82,7 @@ Result<CameraModel> CameraFromColmap(const ColmapCamera& camera, const std::stri
     for (const Formula& other : Formulae()) known += std::string(" ") + other.name;
     return InputError(
         where,
-        "has the camera model \"" + camera.model.substr(0, 40) + "\", which cannot be told in ours",
+        "has the camera model \"" + camera.model.substr(0, 40) + "\", which is not supported",
         "reconstruct with one of" + known);
   }
   const std::size_t count = ParameterCount(*formula);
@@ -90,16 +90,16 @@ Result<CameraModel> CameraFromColmap(const ColmapCamera& camera, const std::stri
     return InputError(where,
                       fmt::format("has {} parameters where {} has {}", camera.parameters.size(),
                                   camera.model, count),
-                      "mend it, or get a whole copy of the file");
+                      "correct it, or get a whole copy of the file");
   }
   if (!std::all_of(camera.parameters.begin(), camera.parameters.end(),
                    [](double parameter) { return std::isfinite(parameter); })) {
     return InputError(where, "has a parameter that is not finite",
-                      "mend it, or get a whole copy of the file");
+                      "correct it, or get a whole copy of the file");
   }
   if (camera.width < 1 || camera.height < 1 || camera.width > kMaxSide ||
       camera.height > kMaxSide) {
-    return InputError(where, fmt::format("has a picture of {}x{}", camera.width, camera.height),
+    return InputError(where, fmt::format("has an image of {}x{}", camera.width, camera.height),
                       "sides are 1 to 100000 pixels");
   }
   const double* next = camera.parameters.data();
@@ -110,7 +110,7 @@ Result<CameraModel> CameraFromColmap(const ColmapCamera& camera, const std::stri
   ours.fy = formula->focal_lengths == 2 ? *next++ : ours.fx;
   if (!(ours.fx > 0.0) || !(ours.fy > 0.0)) {
     return InputError(where, "has a focal length that is not greater than zero",
-                      "mend it, or get a whole copy of the file");
+                      "correct it, or get a whole copy of the file");
   }
   const Vec2 centre = PixelFromCornerOrigin({next[0], next[1]});
   ours.cx = centre.x;

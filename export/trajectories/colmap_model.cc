@@ -30,8 +30,8 @@ Result<CameraModel> CameraOf(const ColmapModel& model) {
   const std::int64_t id = model.pictures.front().camera_id;
   for (const ColmapPicture& picture : model.pictures) {
     if (picture.camera_id != id) {
-      return InputError(picture.where, "was taken with another camera than the first picture",
-                        "leave the pictures of one camera in the model, or reconstruct with "
+      return InputError(picture.where, "was taken with another camera than the first image",
+                        "leave the images of one camera in the model, or reconstruct with "
                         "--ImageReader.single_camera 1");
     }
   }
@@ -48,7 +48,7 @@ Result<CameraModel> CameraOf(const ColmapModel& model) {
 
 Result<CameraTrajectory> TrajectoryFromColmap(ColmapModel model, double frame_rate_hz) {
   if (model.pictures.empty()) {
-    return InputError(model.images_file, "holds no pictures", "get a whole copy of it");
+    return InputError(model.images_file, "holds no images", "get a whole copy of it");
   }
   CameraTrajectory path;
   PLEINAIR_ASSIGN_OR_RETURN(path.camera, CameraOf(model));
@@ -73,8 +73,7 @@ Result<CameraTrajectory> TrajectoryFromColmap(ColmapModel model, double frame_ra
     if (i > 0 && (numbered ? pictures[i].number == pictures[i - 1].number
                            : picture.name == pictures[i - 1].picture->name)) {
       return InputError(picture.where,
-                        "has the number or name of another picture, so that nobody can tell "
-                        "their times",
+                        "has the number or name of another image, so their times are ambiguous",
                         "leave one of them in the model");
     }
     TrajectoryPose pose;
@@ -82,8 +81,8 @@ Result<CameraTrajectory> TrajectoryFromColmap(ColmapModel model, double frame_ra
         numbered ? static_cast<double>(*pictures[i].number) : static_cast<double>(i);
     constexpr double kMaxTime_s = 9e9;
     if (!(index / frame_rate_hz <= kMaxTime_s)) {
-      return InputError(picture.where, "lies centuries after the first picture",
-                        "give the frame rate that the pictures were taken with");
+      return InputError(picture.where, "lies centuries after the first image",
+                        "give the frame rate that the images were taken with");
     }
     pose.timestamp_ns = std::llround(index / frame_rate_hz * 1e9);
     pose.reference_from_camera = picture.camera_from_reference.Inverse();
@@ -95,7 +94,8 @@ Result<CameraTrajectory> TrajectoryFromColmap(ColmapModel model, double frame_ra
 
 Result<ColmapModel> ColmapFromTrajectory(const CameraTrajectory& path) {
   if (!path.camera) {
-    return InputError("", "a COLMAP model needs the camera's lens, which the path has not",
+    return InputError("",
+                      "a COLMAP model needs the camera's calibration, which the trajectory lacks",
                       "give it with --calibration");
   }
   ColmapModel model;

@@ -14,7 +14,7 @@
 namespace pleinair::exports {
 namespace {
 
-constexpr const char* kWhole = "mend it, or get a whole copy of the file";
+constexpr const char* kWhole = "correct it, or get a whole copy of the file";
 
 /// Parses the count in a COLMAP comment ("# Number of images: 2, mean …").
 void ReadStatedCount(std::string_view comment, std::optional<std::int64_t>* count) {
@@ -74,12 +74,12 @@ Result<std::vector<ColmapPicture>> ParseImages(std::string_view text, const std:
         (PoseFromFile<Camera, Reference>(picture.where, {n[4], n[5], n[6]}, turn)));
     PLEINAIR_ASSIGN_OR_RETURN(picture.camera_id, lines.Integer(8));
     picture.name = lines.Rest(9);
-    if (picture.name.empty()) return InputError(picture.where, "names no picture", kWhole);
+    if (picture.name.empty()) return InputError(picture.where, "names no image", kWhole);
     pictures.push_back(std::move(picture));
     // The 2D points of the image, possibly none; a comment is not such a line.
     if (lines.NextOfAnyKind() && (lines.IsComment() || lines.fields().size() % 3 != 0)) {
-      return InputError(lines.Where(), "is not a picture's points: X Y POINT3D_ID …",
-                        "a picture takes two lines, the second empty where nothing was seen");
+      return InputError(lines.Where(), "is not an image's points: X Y POINT3D_ID …",
+                        "an image takes two lines, the second empty where nothing was seen");
     }
   }
   PLEINAIR_RETURN_IF_ERROR(CheckCount(name, stated, pictures.size()));

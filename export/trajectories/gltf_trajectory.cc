@@ -200,12 +200,13 @@ std::string GlbOf(std::string json, const std::string& binary) {
 Result<std::string> GltfFromTrajectory(const CameraTrajectory& path,
                                        const GltfTrajectoryOptions& options) {
   if (!path.camera) {
-    return InputError("", "a glTF camera needs the camera's lens, which the path has not",
+    return InputError("",
+                      "a glTF camera needs the camera's calibration, which the trajectory lacks",
                       "give it with --calibration");
   }
   if (path.camera->distortion_model == DistortionModel::kEquidistant) {
-    return InputError("", "a glTF camera is a perspective one, and the lens a fisheye",
-                      "undistort the pictures and calibrate those");
+    return InputError("", "a glTF camera is perspective, but the lens is a fisheye",
+                      "undistort the images and calibrate those");
   }
   Buffer buffer;
   const Keyframes keys = KeyframesOf(path, SceneFromReference(options.up));

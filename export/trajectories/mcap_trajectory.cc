@@ -142,7 +142,8 @@ Result<std::string> McapFromTrajectory(const CameraTrajectory& path,
                                   : std::min(first_ns, options.markers.front().timestamp_ns);
   }
   if (first_ns + options.start_ns < 0) {
-    return InputError("", "an MCAP file has no times before 1970, and the path begins earlier",
+    return InputError("",
+                      "an MCAP file has no times before 1970, but the trajectory begins earlier",
                       "shift its time stamps");
   }
   const auto time_of = [&](std::int64_t own) {

@@ -57,7 +57,7 @@ Result<TrajectoryFormat> TrajectoryFormatOf(const fs::path& file) {
   if (extension == ".glb" || extension == ".gltf") return TrajectoryFormat::kGltf;
   if (extension == ".mcap") return TrajectoryFormat::kMcap;
   return InputError(
-      file.string(), "has a name that tells no form of a path",
+      file.string(), "has a name without a known trajectory format",
       "name it .tum, .csv, .glb, .gltf or .mcap or a folder, or give --from and --to");
 }
 
@@ -66,13 +66,13 @@ Result<CameraTrajectory> ReadTrajectory(const fs::path& file, TrajectoryFormat f
   if (format == TrajectoryFormat::kGltf || format == TrajectoryFormat::kMcap) {
     const char* form = format == TrajectoryFormat::kGltf ? "a glTF" : "an MCAP";
     return InputError(file.string(),
-                      fmt::format("is {} file, a form that is written and not read", form),
-                      "name a TUM, EuRoC or COLMAP path");
+                      fmt::format("is {} file, a format that can be written but not read", form),
+                      "name a TUM, EuRoC or COLMAP trajectory");
   }
   if (format == TrajectoryFormat::kColmap || format == TrajectoryFormat::kColmapBinary) {
     if (options.frame_rate_hz == 0.0) {
-      return InputError(file.string(), "is a COLMAP model, which knows no times",
-                        "give the pictures' rate with --frame-rate");
+      return InputError(file.string(), "is a COLMAP model, which has no times",
+                        "give the images' rate with --frame-rate");
     }
     PLEINAIR_ASSIGN_OR_RETURN(ColmapModel model, ReadColmapFolder(file));
     return TrajectoryFromColmap(std::move(model), options.frame_rate_hz);

@@ -120,7 +120,7 @@ TEST(AccuracyOfRecordings, RunsPeersWhereTheyCanReadThePrintAndSaysWhereNot) {
   const json report = json::parse(ReadFile(folder / "out/report.json"));
   ASSERT_EQ(report["without_print"].size(), 2U);
   EXPECT_EQ(report["without_print"][0]["film"], (folder / "sg").string());
-  EXPECT_THAT(ReadFile(folder / "out/report.html"), HasSubstr("no print that aruco reads"));
+  EXPECT_THAT(ReadFile(folder / "out/report.html"), HasSubstr("aruco cannot read its marker"));
   int compared = 0;
   for (const json& pair : report["against"]) {
     if (pair["film"] != tag.string()) continue;

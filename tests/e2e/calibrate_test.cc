@@ -244,9 +244,9 @@ TEST(Calibrate, RefusesInOneLineWithTheReasonAndWritesNothing) {
   };
   const std::string few = folder / "few";
   const Case cases[] = {
-      {{"--charuco", "8x6", few}, "the board is seen in 3 of 3 pictures, and fewer than 4"},
+      {{"--charuco", "8x6", few}, "the board is seen in 3 of 3 images, and fewer than 4"},
       {{"--chessboard", "9x6", few}, "no chessboard with 9x6 inner corners is seen in any of 3"},
-      {{"--charuco", "8x6", folder / "empty"}, "holds no picture"},
+      {{"--charuco", "8x6", folder / "empty"}, "holds no image"},
       {{"--charuco", "8x6", folder / "sizes"}, "has 100x200 pixels"},
       {{"--charuco", "8x6", folder / "bad"}, "0.png"},
       {{"--charuco", "8x6", folder / "none"}, "is not there"},
@@ -255,7 +255,7 @@ TEST(Calibrate, RefusesInOneLineWithTheReasonAndWritesNothing) {
       {{"--charuco", "30x30", "--dictionary", "4x4_50", few}, "has 50 markers"},
       {{"--board", folder / "board.json", few}, "cannot be used"},
       {{"--board", folder / "few/0.png", few}, "is no description of a board"},
-      {{few}, "which board is in the pictures is not said"},
+      {{few}, "the board in the images is not given"},
       {{"--charuco", "8x6", "--chessboard", "9x6", few}, "more than one board"},
       {{"--charuco", "8x6", "v4l2:/dev/none", few}, "can only be calibrated alone"},
       {{"--charuco", "8x6", "v4l2:/dev/none"}, "/dev/none"}};

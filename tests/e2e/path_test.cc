@@ -143,7 +143,7 @@ TEST_P(PathRefusal, IsOneLineAndLeavesNothing) { ExpectRefusal("path", GetParam(
 INSTANTIATE_TEST_SUITE_P(
     Convert, PathRefusal,
     testing::Values(
-        Refusal{"NoForm", {"convert", kTruth, "OUT/x.doc"}, "tells no form"},
+        Refusal{"NoForm", {"convert", kTruth, "OUT/x.doc"}, "without a known trajectory format"},
         Refusal{"NoLens", {"convert", kTruth, "OUT/x.glb"}, "x.glb: a glTF camera needs"},
         Refusal{"NoLensForColmap", {"convert", kTruth, "OUT/model"}, "--calibration"},
         Refusal{"NoRate", {"convert", BundledRecording(), "OUT/x.tum"}, "--frame-rate"},
@@ -152,9 +152,9 @@ INSTANTIATE_TEST_SUITE_P(
                 "cameras.txt: there is no such file"},
         Refusal{"NotRead",
                 {"convert", "a.mcap", "OUT/x.tum"},
-                "a.mcap: is an MCAP file, a form that is written and not read"},
+                "a.mcap: is an MCAP file, a format that can be written but not read"},
         Refusal{"NotThere", {"convert", "nowhere.tum", "OUT/x.csv"}, "nowhere.tum: "},
-        Refusal{"Onto", {"convert", kTruth, kTruth}, "is what is read"},
+        Refusal{"Onto", {"convert", kTruth, kTruth}, "is the input itself"},
         Refusal{"NotTum",
                 {"convert", "--from", "tum", BundledRecording() / "recording.json", "OUT/x.csv"},
                 "recording.json:1: has 1 fields instead of 8"},

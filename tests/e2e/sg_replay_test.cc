@@ -100,7 +100,7 @@ TEST(SgReplay, LooksOnlyForTheNumberThatTheSceneNames) {
   const RunResult run = Replay(folder);
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.err, HasSubstr("(sg_18) was seen in no frame"));
-  EXPECT_THAT(run.err, HasSubstr("only number 18 was looked for"));
+  EXPECT_THAT(run.err, HasSubstr("only number 18 was searched for"));
   EXPECT_TRUE(Report(folder)["marker"].is_null());
 }
 

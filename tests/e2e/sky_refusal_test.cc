@@ -70,7 +70,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "--sun"},
         Refusal{"UnknownPicture",
                 {"--sun", "180,30", "--model", "perez", "-o", "OUT/a.tiff"},
-                "a.tiff: is no kind of picture"},
+                "a.tiff: is not a supported picture format"},
         Refusal{"VideoOfOneMoment",
                 {"--sun", "180,30", "--model", "perez", "-o", "OUT/a.mp4"},
                 "a video of one moment"},

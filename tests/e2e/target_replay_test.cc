@@ -129,7 +129,7 @@ TEST(TargetReplay, RefusesAScenesTargetThatCannotBe) {
            Case{"target = \"phantom.obj\"\nsize_mm = 100", "keep marker.target alone"},
            Case{"target = \"phantom.obj\"\nid = 3", "keep marker.target alone"},
            Case{"target = 3", "scene.toml:7: \"target\" is not a text"},
-           Case{"family = \"picture\"\nsize_mm = 100", "does not say which"},
+           Case{"family = \"picture\"\nsize_mm = 100", "does not name it"},
        }) {
     WriteFile(folder / "site/scene.toml", std::string("time = \"2025-09-14T11:05:00Z\"\n"
                                                       "[place]\nlatitude_deg = 50\n"

@@ -44,7 +44,7 @@ class ChessboardFinder final : public BoardFinder {
       const cv::Size other(board_.columns + step, board_.rows + step);
       if (other.width < 3 || other.height < 3 || Search(image, other).empty()) continue;
       const std::string sides = std::to_string(other.width) + "x" + std::to_string(other.height);
-      return "a board with " + sides + " inner corners is in the pictures: --chessboard " + sides;
+      return "a board with " + sides + " inner corners is in the images: --chessboard " + sides;
     }
     return "";
   }

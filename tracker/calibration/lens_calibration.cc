@@ -15,8 +15,8 @@ constexpr double kMinNoise_px = 0.03;
 /// this factor.
 constexpr double kWorthwhile = 1.01;
 constexpr const char* kRemedy =
-    "take 10 to 20 pictures of the whole board: near and far, tilted in several directions, in "
-    "every corner of the picture, with focus and zoom held";
+    "take 10 to 20 images of the whole board: near and far, tilted in several directions, in every "
+    "corner of the image, with focus and zoom held";
 
 std::vector<LensKind> KindsToTry(const LensCalibrationOptions& options) {
   if (options.kind) return {*options.kind};

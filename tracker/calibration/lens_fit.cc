@@ -245,7 +245,7 @@ Result<LensFit> FitLens(const std::vector<PlaneView>& views, int width, int heig
   }
   if (!std::isfinite(best.cost)) {
     return InputError("", "no lens explains these views",
-                      "see whether the board is described rightly and lies flat");
+                      "check that the board is described correctly and lies flat");
   }
   LensFit start = best.fit;
   start.camera_from_board.clear();
@@ -253,7 +253,7 @@ Result<LensFit> FitLens(const std::vector<PlaneView>& views, int width, int heig
     const auto pose = StartPose(view, start.camera);
     if (!pose) {
       return InputError(view.name, "no pose of the board explains what is seen",
-                        "leave this picture out");
+                        "leave this image out");
     }
     start.camera_from_board.push_back(*pose);
   }
@@ -290,7 +290,7 @@ Result<Transform<Camera, Marker>> FitBoardPose(const PlaneView& view, const Came
     if (std::isfinite(solution.cost)) return solution.fit.camera_from_board[0];
   }
   return InputError(view.name, "no pose of the board explains what is seen",
-                    "leave this picture out");
+                    "leave this image out");
 }
 
 }  // namespace pleinair::tracker

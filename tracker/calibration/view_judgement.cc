@@ -86,7 +86,7 @@ void Deviate(const LensFit& fit, const std::vector<PlaneView>& views,
 }
 
 std::string WhatLacks(const ViewJudgement& judgement) {
-  std::string lacks = "tilt the board about both axes of the picture, and take more views, larger";
+  std::string lacks = "tilt the board about both axes of the image, and take more views, larger";
   if (judgement.max_tilt_deg < kLittleTilt_deg) {
     lacks = "the camera looks straight at the board in every view (tilted by at most " +
             Number("%.1f", judgement.max_tilt_deg) +
@@ -96,7 +96,7 @@ std::string WhatLacks(const ViewJudgement& judgement) {
             Number("%.1f", judgement.widest_apart_deg) + " degrees): tilt it in several directions";
   }
   if (judgement.max_tilt_deg < kLittleTilt_deg && judgement.depth_ratio < kLittleDepthRatio) {
-    lacks += ", and everything seen lies at one distance (to " +
+    lacks += ", and all views are at one distance (to " +
              Number("%.0f", 100.0 * (judgement.depth_ratio - 1.0)) + " %): come nearer in some";
   }
   return lacks;
@@ -107,11 +107,10 @@ void JudgePlanes(ViewJudgement* judgement) {
       !(judgement->centre_deviation <= kMaxCentreDeviation)) {
     const bool open = !(judgement->focal_deviation < 1.0);
     judgement->reasons.push_back(
-        (open
-             ? std::string("the focal length is open")
-             : "the focal length is known to " +
-                   Number("%.2g", 100.0 * judgement->focal_deviation) + " % and the centre to " +
-                   Number("%.2g", 100.0 * judgement->centre_deviation) + " % of the picture only") +
+        (open ? std::string("the focal length is undetermined")
+              : "the focal length is known to " +
+                    Number("%.2g", 100.0 * judgement->focal_deviation) + " % and the centre to " +
+                    Number("%.2g", 100.0 * judgement->centre_deviation) + " % of the image only") +
         ": " + WhatLacks(*judgement));
     return;
   }
@@ -132,12 +131,12 @@ void JudgeCoverage(const ViewCoverage& coverage, ViewJudgement* judgement) {
     std::string* list = halves[i] < kMinHalf ? &bare : halves[i] < kGoodHalf ? &thin : nullptr;
     if (list != nullptr) *list += (list->empty() ? "" : ", ") + std::string(kHalves[i]);
   }
-  const std::string share = Number("%.0f", 100.0 * coverage.Share()) + " % of the picture";
+  const std::string share = Number("%.0f", 100.0 * coverage.Share()) + " % of the image";
   if (coverage.Share() < kMinShare || !bare.empty()) {
     judgement->reasons.push_back("the board covers only " + share +
                                  (bare.empty() ? "" : ", next to nothing of its half: " + bare) +
                                  "; the lens's distortion elsewhere would be a guess: take the "
-                                 "board to every edge and corner of the picture");
+                                 "board to every edge and corner of the image");
   } else if (coverage.Share() < kGoodShare || !thin.empty()) {
     judgement->advice.push_back("the board covers " + share +
                                 (thin.empty() ? "" : ", little of its half: " + thin) +

@@ -61,7 +61,7 @@ Fault ReadPicture(LittleEndianReader* reader, PictureTarget* target) {
 Fault ReadViews(LittleEndianReader* reader, PictureTarget* target) {
   const int views = reader->Get<std::uint16_t>();
   if (views < 1 || views > kMaxTargetViews || reader->rest().size() < views * kViewBytes) {
-    return "it tells of " + std::to_string(views) + " views and does not hold them";
+    return "it announces " + std::to_string(views) + " views but does not hold them";
   }
   for (int i = 0; i < views; ++i) {
     TargetView view;
@@ -81,7 +81,7 @@ Fault ReadKeypoints(LittleEndianReader* reader, PictureTarget* target) {
   const std::uint32_t keypoints = reader->Get<std::uint32_t>();
   if (keypoints < 1 || keypoints > kMaxTargetKeypoints ||
       reader->rest().size() < keypoints * kKeypointBytes) {
-    return "it tells of " + std::to_string(keypoints) + " features and does not hold them";
+    return "it announces " + std::to_string(keypoints) + " features but does not hold them";
   }
   Fault fault = "one of its features is none";
   for (std::uint32_t i = 0; i < keypoints; ++i) {
@@ -199,7 +199,7 @@ Result<PictureTarget> ParseTarget(std::string_view bytes, const std::string& nam
   for (const auto read : {&ReadPicture, &ReadViews, &ReadKeypoints}) {
     const Fault fault = read(&reader, &target);
     if (!fault.empty()) {
-      return InputError(name, "is no target that can be looked for: " + fault, kMakeAgain);
+      return InputError(name, "is no usable target: " + fault, kMakeAgain);
     }
   }
   return target;

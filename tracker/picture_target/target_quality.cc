@@ -159,7 +159,7 @@ TargetQuality RateTarget(const PictureTarget& target) {
         "large parts of it have little contrast: raise it before printing"},
        {std::clamp((1.0 - quality.repetition) / 0.6, 0.0, 1.0),
         "its features look alike: choose a picture without a pattern that repeats"},
-       {turn, "it looks nearly the same turned round: add something that tells which way is up"}}};
+       {turn, "it looks nearly the same turned round: add something that shows which way is up"}}};
   std::stable_sort(factors.begin(), factors.end(),
                    [](const Factor& a, const Factor& b) { return a.good < b.good; });
   double product = 1.0;

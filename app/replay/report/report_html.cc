@@ -32,10 +32,9 @@ std::string Pictures(const ReplayReport& report) {
     html += fmt::format(
         "<figure><span class=\"pair\"><img alt=\"frame {0} as recorded\" "
         "src=\"data:image/jpeg;base64,{1}\"><img class=\"after\" alt=\"frame {0} composed\" "
-        "src=\"data:image/jpeg;base64,{2}\"></span>"
-        "<input type=\"range\" min=\"0\" max=\"100\" value=\"50\" "
-        "aria-label=\"frame {0}: where the composed picture begins\">"
-        "<figcaption>Frame {0}: recorded left, composed right of the line</figcaption></figure>\n",
+        "src=\"data:image/jpeg;base64,{2}\"></span><input type=\"range\" min=\"0\" max=\"100\" "
+        "value=\"50\" aria-label=\"frame {0}: where the composed image begins\"><figcaption>Frame "
+        "{0}: recorded left, composed right of the line</figcaption></figure>\n",
         picture.frame_index, files::Base64(picture.before_jpeg), files::Base64(picture.after_jpeg));
   }
   return html;
@@ -84,7 +83,7 @@ std::string Plots(const ReplayReport& report) {
          exports::LinePlotSvg("Camera orientation in the marker frame", "degrees",
                               {heading, tilt, roll}) +
          exports::LinePlotSvg("Reprojection error of the marker's corners", "px rms", {error}) +
-         exports::LinePlotSvg("Part of the marker that was seen", "%", {visible});
+         exports::LinePlotSvg("Visible part of the marker", "%", {visible});
 }
 
 /// ", ± 7 %", or an empty string if unknown.
@@ -95,44 +94,43 @@ std::string PlusMinus(const std::optional<double>& relative_error) {
 std::string MeasuredCards(const compositor::MeasuredLight& light) {
   using Source = compositor::MeasuredLight::Source;
   const std::string sun = light.sun_shines ? fmt::format("{:.2f}", light.sun_to_sky) : "no sun";
-  std::string from = "sun over sky on level ground, as the scene says";
+  std::string from = "sun-to-sky ratio on level ground, from the scene";
   if (light.sun_source == Source::kOverride)
-    from = "sun over sky on level ground, as the user says";
+    from = "sun-to-sky ratio on level ground, from --sun-to-sky";
   if (light.sun_source == Source::kMeasured) {
-    from = fmt::format("{}: {} of {} shadow edges agree, in {} frames; the scene says {:.2f}",
+    from = fmt::format("{}: {} of {} shadow edges agree, in {} frames; scene: {:.2f}",
                        light.sun_shines
-                           ? "sun over sky on level ground" + PlusMinus(light.sun_to_sky_error)
+                           ? "sun-to-sky ratio on level ground" + PlusMinus(light.sun_to_sky_error)
                            : "where phantoms would cast shadows",
                        light.evidence.edges_agreeing, light.evidence.edges, light.evidence.frames,
                        light.sun_to_sky_stated);
   }
   if (light.sun_source == Source::kShade) {
     from = fmt::format(
-        "sun over sky on level ground{}, from how deep the shade of trees is at {} places in {} "
-        "frames; the scene says {:.2f}",
+        "sun-to-sky ratio on level ground{}, from the contrast of tree shadows at {} places in {} "
+        "frames; scene: {:.2f}",
         PlusMinus(light.sun_to_sky_error), light.evidence.shade_places, light.evidence.frames,
         light.sun_to_sky_stated);
   }
   if (light.sun_source == Source::kMarker) {
     from = fmt::format(
-        "sun over sky on level ground{}, from the edge of a shadow across the marker; the scene "
-        "says {:.2f}",
+        "sun-to-sky ratio on level ground{}, from a shadow edge on the marker; scene: {:.2f}",
         PlusMinus(light.sun_to_sky_error), light.sun_to_sky_stated);
   }
   std::string html = Card(sun, from);
   if (light.sun_doubtful) {
-    html += Card("doubtful",
-                 "whether the sun shone: shadows lie elsewhere than phantoms would cast them");
+    html +=
+        Card("doubtful", "whether the sun shone: shadows are not where phantoms would cast them");
   }
   if (light.evidence.edges > 0) {
     html += Card(
         fmt::format("{:.0f} %", std::fmax(0.0, light.evidence.edges_with_contrast) * 100),
-        fmt::format("of {} edges of phantoms' shadows, by weight, are seen", light.evidence.edges));
+        fmt::format("of {} phantom shadow edges, by weight, are visible", light.evidence.edges));
   }
   if (light.heading_source == Source::kMeasured && light.heading_error) {
     html += Card(fmt::format("{:+.2f}° ± {:.2f}°", ToDegrees(light.heading_offset),
                              ToDegrees(*light.heading_error)),
-                 "added to the marker's heading, from where shadows lie");
+                 "added to the marker's heading, estimated from shadows");
   }
   return html;
 }
@@ -142,15 +140,15 @@ std::string ExposureScaleCard(const session::LightSummary& light) {
   using ExposureScaleSource = session::LightSummary::ExposureScaleSource;
   const std::string exposure_scale = fmt::format("{:.3g} {:.3g} {:.3g}", light.exposure_scale.r,
                                                  light.exposure_scale.g, light.exposure_scale.b);
-  const std::string what = "camera gain (r g b per cd/m²), ";
+  const std::string what = "camera exposure scale (r g b per cd/m²), ";
   if (light.exposure_scale_source == ExposureScaleSource::kScene)
-    return Card(exposure_scale, what + "as the scene gives it");
+    return Card(exposure_scale, what + "from the scene");
   if (light.exposure_scale_source == ExposureScaleSource::kGuess)
     return Card(exposure_scale, what + "guessed");
   const LinearRgb& error = light.exposure_scale_error;
   return Card(exposure_scale,
-              what + fmt::format("± {:.1f} {:.1f} {:.1f} % by the marker in {} frames, "
-                                 "changed by a factor of {:.2f}",
+              what + fmt::format("± {:.1f} {:.1f} {:.1f} % from the marker in {} frames, changed "
+                                 "by a factor of {:.2f}",
                                  error.r * 100, error.g * 100, error.b * 100,
                                  light.exposure_estimates, light.exposure_scale_change));
 }
@@ -162,9 +160,10 @@ std::string MarkerCard(const session::LightSummary& light) {
   if (light.marker_sunlit_share <= 0.0) figure = "in shade";
   if (light.marker_sunlit_share >= 1.0) figure = "in the sun";
   if (!light.measured.sun_shines) figure = "no sun";
-  return Card(figure, fmt::format("marker, as the phantoms leave it; leaves shade it in {:.0f} % "
-                                  "of frames",
-                                  session::DappledShare(light) * 100));
+  return Card(
+      figure,
+      fmt::format("marker, by the phantoms' shadows; foliage shades it in {:.0f} % of frames",
+                  session::DappledShare(light) * 100));
 }
 
 std::string Light(const ReplayReport& report) {
@@ -172,7 +171,7 @@ std::string Light(const ReplayReport& report) {
   std::string html = Card(fmt::format("{:.4f}°, {:.4f}°", place.latitude_deg, place.longitude_deg),
                           "latitude, longitude");
   html += Card(place.start.ToString(), "start of the recording");
-  html += Card(CloudinessName(report.scene.cloudiness), "sky, as the scene says");
+  html += Card(CloudinessName(report.scene.cloudiness), "sky, from the scene");
   if (!report.light) return html;
   const session::LightSummary& light = *report.light;
   html += Card(fmt::format("{:.1f}° / {:.1f}°", ToDegrees(light.sun.azimuth),
@@ -186,7 +185,7 @@ std::string Light(const ReplayReport& report) {
   if (light.look) {
     html += Card(fmt::format("{:.2f} px / {:.1f} ‰", light.look->blur_px,
                              1000 * light.look->NoiseSigma(1, session::kMediumLight)),
-                 "blur / noise at medium light, which drawn things get too");
+                 "blur / noise at medium brightness, applied to virtual objects too");
   }
   return html;
 }
@@ -216,11 +215,12 @@ std::string ReportHtml(const ReplayReport& report) {
     html += Card(
         fmt::format("{:.3f} px", poses.reprojection_median_px),
         fmt::format("reprojection error, median (95 %: {:.3f} px)", poses.reprojection_p95_px));
-    html += Card(fmt::format("{:.2f} m", poses.path_length_m), "camera path");
+    html += Card(fmt::format("{:.2f} m", poses.path_length_m), "length of the camera trajectory");
     html +=
         Card(fmt::format("{} / {} / {}", poses.found_by[0], poses.found_by[1], poses.found_by[2]),
              "frames: marker found fast / by S-G / tracked");
-    html += Card(fmt::format("{:.0f} %", poses.visible_min * 100), "of the marker seen, at least");
+    html +=
+        Card(fmt::format("{:.0f} %", poses.visible_min * 100), "of the marker visible, minimum");
     const LostFrames lost = CountLostFrames(report.path, report.film.frames);
     html += Card(fmt::format("{}", lost.frames),
                  fmt::format("frames in which it was lost (longest: {})", lost.longest));
@@ -238,7 +238,7 @@ std::string ReportHtml(const ReplayReport& report) {
   }
   html += "<h2>Light</h2>\n<div class=\"cards\">\n" + Light(report) + "</div>\n";
   html += report.files.time_lapse;
-  if (!report.path.empty()) html += "<h2>Camera path</h2>\n" + Plots(report);
+  if (!report.path.empty()) html += "<h2>Camera trajectory</h2>\n" + Plots(report);
   html +=
       "<h2>Time per stage</h2>\n<table><tr><th>stage</th><th>runs</th><th>median, ms</th>"
       "<th>95 %, ms</th><th>frames a second</th></tr>\n";

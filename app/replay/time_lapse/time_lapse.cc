@@ -154,8 +154,8 @@ Result<std::string> TimeLapseHtml(const fs::path& folder) {
   PLEINAIR_ASSIGN_OR_RETURN(const auto video, Bytes(folder / kTimeLapseVideo));
   PLEINAIR_ASSIGN_OR_RETURN(const auto sheet, Bytes(folder / kTimeLapseSheet));
   return fmt::format(
-      "<h2>The day of this scene</h2>\n<p class=\"lead\">Drawn from the models alone, lit as the "
-      "frames say that the day was.</p>\n<video controls autoplay loop muted "
+      "<h2>The day of this scene</h2>\n<p class=\"lead\">Rendered from the models alone, in the "
+      "light estimated from the frames.</p>\n<video controls autoplay loop muted "
       "style=\"width:100%;border-radius:8px\" src=\"data:video/mp4;base64,{}\"></video>\n"
       "<figure><img alt=\"the day in pictures\" style=\"width:100%;border-radius:8px\" "
       "src=\"data:image/png;base64,{}\"><figcaption>the day in pictures</figcaption></figure>\n",

@@ -44,7 +44,7 @@ ControlResult Fulfil(ArvCamera* camera, const ControlRequest& requested) {
     set_auto(camera, ARV_AUTO_OFF, error.Fresh());
     if (error.failed()) {
       result.locked = false;
-      result.details = name + " cannot be held: " + error.details();
+      result.details = name + " cannot be locked: " + error.details();
     }
   }
   if (requested.value) {

@@ -29,7 +29,7 @@ Error AravisError(const std::string& where, const std::string& doing, const GErr
   if (error.Is(ARV_DEVICE_ERROR_NOT_FOUND)) return NotThere(where);
   if (error.Is(ARV_DEVICE_ERROR_NOT_CONTROLLER)) return Taken(where, doing);
   return {ErrorKind::kSystem, where, doing + ": " + error.details(),
-          "see whether the camera and this machine are in one network"};
+          "check that the camera and this machine are in one network"};
 }
 
 class AravisDevice : public CameraDevice {
@@ -83,7 +83,7 @@ class AravisDevice : public CameraDevice {
     if (!stream_) return tl::make_unexpected(AravisError(where, "cannot open a stream", error));
     const guint payload = arv_camera_get_payload(camera_.get(), error.Fresh());
     if (error.failed()) {
-      return tl::make_unexpected(AravisError(where, "cannot ask for a picture's size", error));
+      return tl::make_unexpected(AravisError(where, "cannot query the image size", error));
     }
     for (int i = 0; i < kBuffers; ++i) {
       arv_stream_push_buffer(stream_.get(), arv_buffer_new_allocate(payload));
@@ -114,7 +114,7 @@ class AravisDevice : public CameraDevice {
   // Waits are short, and Aravis cannot interrupt one.
   void Wake() override {}
 
-  std::string StatusMessage() const override { return "the camera answers no more"; }
+  std::string StatusMessage() const override { return "the camera no longer responds"; }
   const NegotiatedFormat& negotiated() const override { return negotiated_; }
   CameraUri identity() const override { return identity_; }
 

@@ -121,7 +121,7 @@ class LibcameraDevice final : public CameraDevice {
     acquired_ = true;
     format_.configuration = camera_->generateConfiguration({libcamera::StreamRole::Viewfinder});
     if (!format_.configuration || format_.configuration->empty()) {
-      return InputError(where, "has no stream for viewing", "choose another camera");
+      return InputError(where, "has no viewfinder stream", "choose another camera");
     }
     libcamera::StreamConfiguration& stream = format_.configuration->at(0);
     PLEINAIR_ASSIGN_OR_RETURN(const FormatChoice choice,
@@ -133,14 +133,14 @@ class LibcameraDevice final : public CameraDevice {
     }
     stream.bufferCount = std::max(stream.bufferCount, kBuffers);
     if (format_.configuration->validate() == libcamera::CameraConfiguration::Invalid) {
-      return InputError(where, "refuses the pictures that were asked for",
-                        "ask for another size or format");
+      return InputError(where, "refuses the requested image format",
+                        "request another size or format");
     }
     const auto format = PixelFormatOf(stream.pixelFormat);
     if (!format) {
       return InputError(where,
-                        "sends " + stream.pixelFormat.toString() + ", which is not read here",
-                        "ask for another format");
+                        "sends " + stream.pixelFormat.toString() + ", which is not supported",
+                        "request another format");
     }
     if (const int failed = camera_->configure(format_.configuration.get()); failed != 0) {
       return tl::make_unexpected(LibcameraError(where, "cannot set size and format", -failed));

@@ -75,7 +75,7 @@ Result<std::shared_ptr<libcamera::CameraManager>> LibcameraManager() {
   const std::vector<int> of_others = UeventSockets();
   if (const int failed = created->start(); failed != 0) {
     return SystemError("libcamera", "cannot start: " + std::string(std::strerror(-failed)),
-                       "see whether udev runs and you may read the devices");
+                       "check that udev runs and that you may read the devices");
   }
   // libcamera 0.0.3 crashes on some orders of device events: DeviceEnumeratorUdev::addV4L2Device
   // leaves freed devices in devMap_. It reads them when a camera gets the same number again and its
@@ -84,7 +84,7 @@ Result<std::shared_ptr<libcamera::CameraManager>> LibcameraManager() {
     const bool is_new = std::find(of_others.begin(), of_others.end(), socket) == of_others.end();
     if (is_new && !MuteSocket(socket)) {
       created->stop();
-      return SystemError("libcamera", "cannot be kept from listening to what is plugged in",
+      return SystemError("libcamera", "cannot disable its hotplug monitoring",
                          "use the camera through V4L2");
     }
   }

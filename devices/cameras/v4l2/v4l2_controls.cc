@@ -79,7 +79,7 @@ ControlResult Fulfil(const V4l2Node& node, const ControlRequest& requested) {
   if (Query(node, mapping.auto_id, &automatic)) {
     const int failed = Set(node, mapping.auto_id, ValueForManual(mapping));
     if (failed < 0) {
-      result.details = V4l2Error(node.path(), name + " cannot be held", -failed).Message();
+      result.details = V4l2Error(node.path(), name + " cannot be locked", -failed).Message();
     }
     const std::optional<int> now = Get(node, mapping.auto_id);
     is_auto = now && MeansAuto(mapping, *now);
@@ -104,7 +104,7 @@ ControlResult Fulfil(const V4l2Node& node, const ControlRequest& requested) {
     result.value = *now * mapping.unit;
   }
   result.locked = !is_auto;
-  if (is_auto && result.details.empty()) result.details = name + " goes on changing by itself";
+  if (is_auto && result.details.empty()) result.details = name + " keeps changing by itself";
   return result;
 }
 

@@ -49,7 +49,7 @@ class V4l2Device : public CameraDevice {
     for (__u32 i = 0; i < request.count; ++i) {
       v4l2_buffer buffer = BufferNumber(i);
       result = node_.Control(VIDIOC_QUERYBUF, &buffer);
-      if (result < 0) return fail("cannot ask for a buffer", result);
+      if (result < 0) return fail("cannot query a buffer", result);
       void* address = node_.io().Map(node_.fd(), buffer.length, buffer.m.offset);
       if (address == nullptr) return fail("cannot map a buffer", -ENOMEM);
       buffers_.push_back({static_cast<std::uint8_t*>(address), buffer.length});

@@ -56,7 +56,7 @@ Result<V4l2NegotiatedFormat> AgreeOnPictures(const V4l2Node& node, const FormatR
   format.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
   int result = node.Control(VIDIOC_G_FMT, &format);
   if (result < 0)
-    return tl::make_unexpected(V4l2Error(node.path(), "cannot ask its format", -result));
+    return tl::make_unexpected(V4l2Error(node.path(), "cannot query its format", -result));
   v4l2_pix_format& pixels = format.fmt.pix;
   if (choice.size) {
     pixels.width = static_cast<__u32>(choice.size->width);
@@ -78,16 +78,16 @@ Result<V4l2NegotiatedFormat> AgreeOnPictures(const V4l2Node& node, const FormatR
   pixels.priv = 0;
   result = node.Control(VIDIOC_S_FMT, &format);
   if (result < 0)
-    return tl::make_unexpected(V4l2Error(node.path(), "cannot set pictures", -result));
+    return tl::make_unexpected(V4l2Error(node.path(), "cannot set the image format", -result));
   const std::optional<PixelFormat> got = PixelFormatOf(pixels.pixelformat);
   if (!got) {
     return InputError(node.path(),
-                      "asked for " + std::string(NameOf(choice.format)) + ", got " +
-                          FourCcName(pixels.pixelformat) + ", which is not read here",
-                      "ask for another format");
+                      "requested " + std::string(NameOf(choice.format)) + ", got " +
+                          FourCcName(pixels.pixelformat) + ", which is not supported",
+                      "request another format");
   }
   if (pixels.field != V4L2_FIELD_NONE && pixels.field != V4L2_FIELD_ANY) {
-    return InputError(node.path(), "sends interlaced pictures, whose halves show two moments",
+    return InputError(node.path(), "sends interlaced images, which are not supported",
                       "choose another input or size of the camera");
   }
   V4l2NegotiatedFormat negotiated;

@@ -86,15 +86,16 @@ Result<V4l2Node> V4l2Node::Open(std::shared_ptr<V4l2Io> io, const std::string& p
   if (node.fd_ < 0) return tl::make_unexpected(V4l2Error(path, "cannot open", -node.fd_));
   v4l2_capability capability{};
   const int result = node.Control(VIDIOC_QUERYCAP, &capability);
-  if (result < 0) return tl::make_unexpected(V4l2Error(path, "cannot ask what it is", -result));
+  if (result < 0)
+    return tl::make_unexpected(V4l2Error(path, "cannot query its capabilities", -result));
   const __u32 can = (capability.capabilities & V4L2_CAP_DEVICE_CAPS) != 0 ? capability.device_caps
                                                                           : capability.capabilities;
   if ((can & V4L2_CAP_VIDEO_CAPTURE) == 0 || (can & V4L2_CAP_STREAMING) == 0) {
     const bool planar = (can & V4L2_CAP_VIDEO_CAPTURE_MPLANE) != 0;
     return InputError(path,
-                      planar ? "speaks only V4L2's multi-planar interface, which is not read here"
-                             : "is no camera: it cannot stream pictures",
-                      planar ? "use it through libcamera: 'pleinair devices' has its name"
+                      planar ? "has only V4L2's multi-planar interface, which is not supported"
+                             : "is no camera: it cannot stream images",
+                      planar ? "use it through libcamera: 'pleinair devices' lists its name"
                              : "'pleinair devices' lists cameras");
   }
   node.name_ = Text(capability.card);

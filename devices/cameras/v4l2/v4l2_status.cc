@@ -50,8 +50,9 @@ Error V4l2Error(const std::string& node, const std::string& doing, int error_num
       return make(ErrorKind::kInput, "another program uses the camera",
                   "close that program, or choose another camera");
     case ENOSPC:
-      return make(ErrorKind::kInput, "the USB bus has too little bandwidth left for these pictures",
-                  "ask for a smaller size, fewer frames or MJPG, or plug it into another USB port");
+      return make(
+          ErrorKind::kInput, "the USB bus has too little bandwidth left for these images",
+          "request a smaller size, a lower frame rate or MJPG, or plug it into another USB port");
     case ENOTTY:
       return make(ErrorKind::kInput, "this is no camera", "'pleinair devices' lists cameras");
     default:

@@ -38,17 +38,17 @@ TEST(ModelWarnings, ReportOnceOfAFileWhatOfItDoesNotShow) {
     return placed;
   };
   EXPECT_THAT(ModelWarnings({place(model, false), place(model, false)}),
-              ElementsAre("Of lamp.glb this is not drawn: emission, normal maps."));
+              ElementsAre("lamp.glb uses features that are not drawn: emission, normal maps."));
   EXPECT_THAT(ModelWarnings({place(model, true)}), IsEmpty());
   model.unsupported_features = {compositor::kVertexColors};
   EXPECT_THAT(ModelWarnings({place(model, true)}),
-              ElementsAre("Of lamp.glb this is not drawn: colours of vertices."));
+              ElementsAre("lamp.glb uses features that are not drawn: colours of vertices."));
 }
 
 TEST(MarkerWarnings, ReportWhatWasLookedForInVain) {
   EXPECT_THAT(WhereNothingWasSeen("tag25h9", 2), HasSubstr("(tag25h9_2) was seen in no frame"));
   EXPECT_THAT(WhereNothingWasSeen("tag25h9", 2), Not(HasSubstr("S-G")));
-  EXPECT_THAT(WhereNothingWasSeen("sg", 17), HasSubstr("only number 17 was looked for"));
+  EXPECT_THAT(WhereNothingWasSeen("sg", 17), HasSubstr("only number 17 was searched for"));
   EXPECT_THAT(WhereNothingWasSeen({}, {}), HasSubstr("(sg or tag36h11) was seen in no frame"));
   EXPECT_THAT(WhereNothingWasSeen({}, {}), HasSubstr("Seen: tag36h11_4."));
 }
@@ -66,12 +66,12 @@ TEST(LightWarnings, ReportWhatTheLightCannotBe) {
   light.measured.sun_source = compositor::MeasuredLight::Source::kMeasured;
   light.measured.sun_shines = false;
   light.measured.sun_to_sky_stated = 4.0;
-  EXPECT_THAT(LightWarnings(light), ElementsAre(HasSubstr("Planes are lit as no sun")));
+  EXPECT_THAT(LightWarnings(light), ElementsAre(HasSubstr("surfaces shows no sunlight")));
   light.measured.evidence.edges = light.measured.evidence.edges_agreeing = 9;
-  EXPECT_THAT(LightWarnings(light), ElementsAre(HasSubstr("(9 places looked at)")));
+  EXPECT_THAT(LightWarnings(light), ElementsAre(HasSubstr("(9 shadow edges checked)")));
   light.measured = {};
   light.measured.sun_source = compositor::MeasuredLight::Source::kMarker;
-  EXPECT_THAT(LightWarnings(light), ElementsAre(HasSubstr("shadow's edge divides the marker")));
+  EXPECT_THAT(LightWarnings(light), ElementsAre(HasSubstr("shadow edge crosses the marker")));
   light.measured.sun_to_sky_stated = 4.0;
   EXPECT_THAT(LightWarnings(light), IsEmpty());
   light.measured = {};

@@ -19,16 +19,16 @@ TEST(MeasuredText, ReportsHowWellSunAndHeadingAreKnown) {
             "measured: sun 4.0 ± 0.6 times the sky (from 31 edges)");
   measured.sun_source = Source::kShade;
   EXPECT_EQ(MeasuredSunText(drawn, measured),
-            "measured: sun 4.0 ± 0.6 times the sky (from the shade of trees)");
+            "measured: sun 4.0 ± 0.6 times the sky (from the shadows of trees)");
   measured.sun_source = Source::kMarker;
   EXPECT_EQ(MeasuredSunText(drawn, measured),
-            "measured: sun 4.0 ± 0.6 times the sky (from a shadow's edge on the marker)");
+            "measured: sun 4.0 ± 0.6 times the sky (from a shadow edge on the marker)");
   drawn.sun_shines = false;
   EXPECT_EQ(MeasuredSunText(drawn, measured), "measured: no sun");
   measured.heading_source = Source::kMeasured;
   measured.heading_offset = FromDegrees(-2.96);
   measured.heading_error = FromDegrees(0.12);
-  EXPECT_EQ(MeasuredHeadingText(measured), "measured: -2.96° ± 0.12° from the stated one");
+  EXPECT_EQ(MeasuredHeadingText(measured), "measured: -2.96° ± 0.12° from the scene's");
 }
 
 }  // namespace

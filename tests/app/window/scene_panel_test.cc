@@ -142,7 +142,7 @@ TEST_F(PanelInHands, ACityIsFoundByTypingAndTheTimeIsThatOfTheDayThatIsTyped) {
   EXPECT_EQ(state_.shown_time().ToCivil().hour, before.ToCivil().hour);
   Push(Of("Now"));
   EXPECT_EQ(state_.shown_time(), now_);
-  Push(Of("Time of the pictures"));
+  Push(Of("Time of the images"));
   EXPECT_EQ(state_.shown_time(), state_.frame.moment);
   if (Point(Of("##time"))) Click();
   EXPECT_LT(TimeOfDay(state_.shown_time(), 0.0), 12.0 * 3600.0) << "left on the bar is early";

@@ -284,7 +284,7 @@ TEST(Recording, WhatIsNoRecordingSaysWhatOneIs) {
   EXPECT_THAT(tests::MessageOf(OpenRecording(folder.Write("film.mp4", "x"))),
               HasSubstr("give --calibration"));
   EXPECT_THAT(tests::MessageOf(OpenRecording(folder.Write("log.mcap", "x"))),
-              HasSubstr("log.mcap: is an MCAP file, a form that is written and not read"));
+              HasSubstr("log.mcap: is an MCAP file, a format that can be written but not read"));
 }
 
 }  // namespace

@@ -160,11 +160,10 @@ TEST(ColmapModel, RefusesWhatIsCutShortOrContradictsItself) {
            Case{&ColmapFiles::cameras, "2559.81 1536", "2559.81", "cameras.txt:4: "},
            Case{&ColmapFiles::cameras, "2559.81 1536", "-2559.81 1536", "focal length"},
            Case{&ColmapFiles::cameras, "2 PINHOLE", "1 PINHOLE", "another camera"},
-           Case{&ColmapFiles::cameras, "3072 2304 2559.81", "99999999999 2304 2559.81",
-                "picture of"},
+           Case{&ColmapFiles::cameras, "3072 2304 2559.81", "99999999999 2304 2559.81", "image of"},
            Case{&ColmapFiles::images, "1 0.851773", "1 0.51773", "images.txt:5: has a quaternion"},
            Case{&ColmapFiles::images, "-0.737434", "nan", "images.txt:5: "},
-           Case{&ColmapFiles::images, " 1 P1180141.JPG", " 1", "names no picture"},
+           Case{&ColmapFiles::images, " 1 P1180141.JPG", " 1", "names no image"},
            Case{&ColmapFiles::images, " 268.254 -1\n", " 268.254\n", "images.txt:6: "},
            Case{&ColmapFiles::images, "P1180142", "P1180141", "number or name of another"},
            Case{&ColmapFiles::images, "3.74354 1 P1180142", "3.74354 2 P1180142", "another camera"},
@@ -180,7 +179,7 @@ TEST(ColmapModel, RefusesWhatIsCutShortOrContradictsItself) {
     text.replace(at, std::string(c.from).size(), c.to);
     EXPECT_THAT(tests::MessageOf(PathOfText(texts)), HasSubstr(c.message)) << c.from;
   }
-  EXPECT_THAT(tests::MessageOf(PathOfText({})), HasSubstr("holds no pictures"));
+  EXPECT_THAT(tests::MessageOf(PathOfText({})), HasSubstr("holds no images"));
 }
 
 // The same example as written by COLMAP 3.8's model_converter.
@@ -275,18 +274,18 @@ TEST(ColmapBinary, RefusesWhatIsNoModel) {
   const auto points = &ColmapFiles::points3d;
   for (const Case& c : {
            Case{cameras, 0, most, "cameras.bin, entry 4 of 18446744073709551615: ends before"},
-           Case{cameras, 12, "\x0A", "\"THIN_PRISM_FISHEYE\", which cannot be told"},
-           Case{cameras, 12, "\x63", "\"number 99\", which cannot be told"},
-           Case{cameras, 16, std::string(8, '\0'), "entry 1 of 3: has a picture of 0x2304"},
+           Case{cameras, 12, "\x0A", "\"THIN_PRISM_FISHEYE\", which is not supported"},
+           Case{cameras, 12, "\x63", "\"number 99\", which is not supported"},
+           Case{cameras, 16, std::string(8, '\0'), "entry 1 of 3: has an image of 0x2304"},
            Case{cameras, 32, nan, "cameras.bin, entry 1 of 3: has a parameter that is not finite"},
            Case{cameras, 64, "\x03", "entry 2 of 3: has the number of another camera"},
            Case{images, 12, nan, "images.bin, entry 1 of 2: has a quaternion"},
-           Case{images, 44, nan, "images.bin, entry 1 of 2: has a place farther off"},
+           Case{images, 44, nan, "images.bin, entry 1 of 2: has a position beyond"},
            Case{images, 68, "\x07", "another camera"},
            Case{images, 72, std::string(1, '\0'), "images.bin, entry"},
-           Case{images, 73, "\n", "entry 1 of 2: has a picture's name that is empty or not print"},
+           Case{images, 73, "\n", "entry 1 of 2: has an image's name that is empty or not print"},
            Case{images, 85, most, "images.bin, entry 1 of 2: ends before"},
-           Case{points, 16, nan, "points3D.bin, entry 1 of 3: has a place"},
+           Case{points, 16, nan, "points3D.bin, entry 1 of 3: has a position"},
            Case{points, 43, nan, "points3D.bin, entry 1 of 3: has an error that is not finite"},
            Case{points, 51, most, "points3D.bin, entry 1 of 3: ends before"},
        }) {
@@ -296,7 +295,7 @@ TEST(ColmapBinary, RefusesWhatIsNoModel) {
   }
   const std::string none(8, '\0');
   EXPECT_THAT(tests::MessageOf(PathOfBinary({none, none, none})),
-              "model/images.bin: holds no pictures; "
+              "model/images.bin: holds no images; "
               "get a whole copy of it");
 }
 

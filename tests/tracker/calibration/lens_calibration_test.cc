@@ -228,7 +228,7 @@ TEST(LensCalibration, RefusesPointsThatAllLieAtOneDistance) {
     pose.translation_m = {0.3 * (i % 4 - 1.5), 0.22 * (i / 4 - 1.0), 1.3};
     poses.push_back(pose);
   }
-  EXPECT_THAT(Refusal(poses), HasSubstr("lies at one distance"));
+  EXPECT_THAT(Refusal(poses), HasSubstr("are at one distance"));
 }
 
 TEST(LensCalibration, JudgesByTheCovarianceWhetherDistancesAndTiltsDetermineTheFocalLength) {

@@ -167,14 +167,14 @@ TEST(ReportLight, StatesWhatWasMeasuredAndHowCertainItIs) {
   EXPECT_THAT(page, HasSubstr("<b>151.2° / 41.6°</b><span>sun: azimuth"));
   EXPECT_THAT(page, HasSubstr("<b>92.3 klx</b>"));
   EXPECT_THAT(page, HasSubstr("<b>12.7 klx</b>"));
-  EXPECT_THAT(page, HasSubstr("<b>4.55</b><span>sun over sky on level ground, ± 7 %: 31 of 45 "
-                              "shadow edges agree, in 8 frames; the scene says 4.74"));
-  EXPECT_THAT(page, HasSubstr("<b>84 %</b><span>of 45 edges of phantoms&#39; shadows"));
+  EXPECT_THAT(page, HasSubstr("<b>4.55</b><span>sun-to-sky ratio on level ground, ± 7 %: 31 of 45 "
+                              "shadow edges agree, in 8 frames; scene: 4.74"));
+  EXPECT_THAT(page, HasSubstr("<b>84 %</b><span>of 45 phantom shadow edges"));
   EXPECT_THAT(page, HasSubstr("<b>-1.50° ± 0.25°</b>"));
   EXPECT_THAT(page, HasSubstr("<b>62 % in the sun</b>"));
-  EXPECT_THAT(page, HasSubstr("leaves shade it in 25 % of frames"));
+  EXPECT_THAT(page, HasSubstr("foliage shades it in 25 % of frames"));
   EXPECT_THAT(page, HasSubstr("<b>3e-05 2.5e-05 2e-05</b>"));
-  EXPECT_THAT(page, HasSubstr("± 1.1 2.2 3.3 % by the marker in 40 frames, changed by a factor "
+  EXPECT_THAT(page, HasSubstr("± 1.1 2.2 3.3 % from the marker in 40 frames, changed by a factor "
                               "of 1.25"));
   EXPECT_THAT(page, Not(HasSubstr("doubtful")));
 }
@@ -188,7 +188,7 @@ TEST(ReportLight, StatesTheRatioThatTreesShadeTells) {
   EXPECT_EQ(measured["sun_from"], "shade");
   EXPECT_EQ(measured["shade_places"], 12);
   EXPECT_EQ(measured["sun_to_sky_relative_error"], 0.21);
-  EXPECT_THAT(PageOf(light), HasSubstr("± 21 %, from how deep the shade of trees is at 12 places"));
+  EXPECT_THAT(PageOf(light), HasSubstr("± 21 %, from the contrast of tree shadows at 12 places"));
 }
 
 TEST(ReportLight, StatesTheRatioThatAShadowAcrossTheMarkerTells) {
@@ -196,7 +196,7 @@ TEST(ReportLight, StatesTheRatioThatAShadowAcrossTheMarkerTells) {
   light.measured.sun_source = Source::kMarker;
   light.measured.sun_to_sky_error = 0.15;
   EXPECT_EQ(JsonOf(light)["measured"]["sun_from"], "marker");
-  EXPECT_THAT(PageOf(light), HasSubstr("± 15 %, from the edge of a shadow across the marker"));
+  EXPECT_THAT(PageOf(light), HasSubstr("± 15 %, from a shadow edge on the marker"));
 }
 
 TEST(ReportLight, ClaimsNoCertaintyOfWhatIsOnlySaid) {
@@ -210,23 +210,22 @@ TEST(ReportLight, ClaimsNoCertaintyOfWhatIsOnlySaid) {
     EXPECT_TRUE(stated[key].is_null()) << key;
   }
   EXPECT_EQ(stated["sun_from"], "stated");
-  EXPECT_THAT(PageOf(light), HasSubstr("<b>4.74</b><span>sun over sky on level ground, as the "
-                                       "scene says"));
-  EXPECT_THAT(PageOf(light), Not(HasSubstr("edges of phantoms")));
+  EXPECT_THAT(PageOf(light),
+              HasSubstr("<b>4.74</b><span>sun-to-sky ratio on level ground, from the scene"));
+  EXPECT_THAT(PageOf(light), Not(HasSubstr("phantom shadow edges")));
   light.measured.sun_source = light.measured.heading_source = Source::kOverride;
   const nlohmann::json given = JsonOf(light)["measured"];
   EXPECT_EQ(given["sun_from"], "option");
   EXPECT_TRUE(given["sun_to_sky_relative_error"].is_null());
   EXPECT_TRUE(given["heading_error_deg"].is_null());
-  EXPECT_THAT(PageOf(light), HasSubstr("sun over sky on level ground, as the user says"));
+  EXPECT_THAT(PageOf(light), HasSubstr("sun-to-sky ratio on level ground, from --sun-to-sky"));
 }
 
 TEST(ReportLight, ReportsWhoGaveTheExposure) {
   session::LightSummary light = MeasuredSummary();
   light.exposure_estimates = light.dappled_estimates = 0;
   for (const auto& [source, name, words] :
-       {std::tuple{session::LightSummary::ExposureScaleSource::kScene, "scene",
-                   "as the scene gives it"},
+       {std::tuple{session::LightSummary::ExposureScaleSource::kScene, "scene", "from the scene"},
         std::tuple{session::LightSummary::ExposureScaleSource::kGuess, "guess", "guessed"}}) {
     light.exposure_scale_source = source;
     const nlohmann::json json = JsonOf(light);
@@ -237,9 +236,10 @@ TEST(ReportLight, ReportsWhoGaveTheExposure) {
       EXPECT_TRUE(json[key].is_null()) << key << " of " << name;
     }
     const std::string page = PageOf(light);
-    EXPECT_THAT(page, HasSubstr(std::string("camera gain (r g b per cd/m²), ") + words + "<"));
-    EXPECT_THAT(page, Not(HasSubstr("by the marker in")));
-    EXPECT_THAT(page, Not(HasSubstr("marker, as the phantoms leave it")));
+    EXPECT_THAT(page,
+                HasSubstr(std::string("camera exposure scale (r g b per cd/m²), ") + words + "<"));
+    EXPECT_THAT(page, Not(HasSubstr("from the marker in")));
+    EXPECT_THAT(page, Not(HasSubstr("marker, by the phantoms")));
   }
 }
 
@@ -264,7 +264,7 @@ TEST(ReportLight, ReportsThatTheSunIsDoubtful) {
   EXPECT_EQ(JsonOf(light)["measured"]["sun_doubtful"], true);
   EXPECT_EQ(JsonOf(light)["measured"]["shadow_edges_with_contrast"], -0.04);
   EXPECT_THAT(PageOf(light), HasSubstr("<b>doubtful</b><span>whether the sun shone"));
-  EXPECT_THAT(PageOf(light), HasSubstr("<b>0 %</b><span>of 45 edges"));
+  EXPECT_THAT(PageOf(light), HasSubstr("<b>0 %</b><span>of 45 phantom shadow edges"));
 }
 
 TEST(ReportLight, ReportsThatNoSunShone) {

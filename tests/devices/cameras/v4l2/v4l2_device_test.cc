@@ -128,7 +128,7 @@ TEST(V4l2Device, TellsEachDifferenceBetweenAskedAndGot) {
   const auto device = Open(io, kNode, requested);
   ASSERT_TRUE(device);
   EXPECT_THAT((*device)->negotiated().details,
-              ElementsAre("asked for 640x480, got 8x4", "asked for 60 Hz, got 30 Hz"));
+              ElementsAre("requested 640x480, got 8x4", "requested 60 Hz, got 30 Hz"));
 }
 
 TEST(V4l2Device, RefusesAFormatThatTheCameraHasNotByName) {
@@ -137,7 +137,7 @@ TEST(V4l2Device, RefusesAFormatThatTheCameraHasNotByName) {
   requested.format = PixelFormat::kNv12;
   EXPECT_EQ(Open(io, kNode, requested).error().what, "does not send NV12 but YUYV, MJPG");
   io->formats = {V4L2_PIX_FMT_Y16};
-  EXPECT_THAT(Open(io).error().what, HasSubstr("no pictures that are read here, but Y16"));
+  EXPECT_THAT(Open(io).error().what, HasSubstr("no supported format, but Y16"));
 }
 
 TEST(V4l2Device, TakesTheDriversWordOnColours) {
