@@ -76,7 +76,7 @@ inline constexpr const char* kVertexColors = "colours of vertices";
 inline constexpr const char* kPointsAndLines = "points and lines";
 
 /// All unsupported features of a model and of its used materials, as ordered user messages.
-/// docs/guide/reference/recordings.md lists what is supported.
+/// docs/guide/reference/models.md lists what is supported.
 std::set<std::string> UnsupportedFeatures(const Model& model);
 
 enum class NormalsMode { kFromFile, kFlat, kSmooth };
