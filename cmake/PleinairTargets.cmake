@@ -47,6 +47,20 @@ function(pleinair_library name)
   pleinair_configure_target(pleinair_${name})
 endfunction()
 
+# Compiles the sources of a target but those that match the regular expression with less optimisation
+# in a release: they run rarely, and their templates (JSON, formatting, the command line) take longest
+# to compile. Sanitized builds have their own.
+function(pleinair_optimize_lightly target except)
+  get_target_property(sources ${target} SOURCES)
+  list(FILTER sources EXCLUDE REGEX "${except}")
+  foreach(source IN LISTS sources)
+    get_source_file_property(options ${source} COMPILE_OPTIONS)
+    if(NOT options)
+      set_source_files_properties(${source} PROPERTIES COMPILE_OPTIONS $<$<CONFIG:Release>:-O1>)
+    endif()
+  endforeach()
+endfunction()
+
 # pleinair_test(NAME SOURCES ... LIBS ... [LABELS ...]): a GoogleTest program, each test known to ctest.
 function(pleinair_test name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBS;LABELS" ${ARGN})
