@@ -9,6 +9,8 @@ function(pleinair_configure_target target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
                          # GCC 12 sees overlaps in "literal" + std::string that are not there (PR 105651).
                          $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
+                         # And members of an empty std::optional that are read nowhere (PR 80635).
+                         $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>
                          $<$<BOOL:${PLEINAIR_WERROR}>:-Werror>)
   if(PLEINAIR_FUZZERS)
     # Without this a fuzzer sees no coverage of the code that it is there for.

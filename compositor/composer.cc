@@ -54,6 +54,16 @@ struct SunAndSky {
   AerialFog air;
   Vec3 to_sun;
   LinearRgb sun_normal_lux;
+  glm::vec3 up{0.0F, 0.0F, 1.0F};  // Marker coordinates.
+  LinearRgb level_sun, level_sky;  // Illuminance of level ground.
+  LightMix mix;
+
+  LinearRgb SunNow() const { return sun_normal_lux * mix.sun; }
+  /// Light on level ground relative to that without the mix.
+  LinearRgb LevelMix() const {
+    const LinearRgb none{1e-9, 1e-9, 1e-9};  // In the night both are 0.
+    return (level_sun * mix.sun + level_sky * mix.sky + none) / (level_sun + level_sky + none);
+  }
 };
 
 /// Sun transmittance of unmodelled objects in view.
@@ -87,6 +97,7 @@ class GlComposer : public Composer {
   }
   Result<void> SetLight(const std::vector<LitMesh>& lit, const sky::SkyModel& day,
                         const Mat3& marker_from_world, LinearRgb from_below) override;
+  Result<void> SetLightMix(const std::vector<LitMesh>& lit, const LightMix& mix) override;
   void SetSun(const sky::SkyModel& day, const Mat3& marker_from_world) override;
   Result<RgbImage> Compose(ImageView<const std::uint8_t> rgb,
                            const Transform<Camera, Marker>& camera_from_marker,
@@ -106,7 +117,7 @@ class GlComposer : public Composer {
       : context_(std::move(context)), camera_(camera) {}
 
   Result<void> UploadSunlight(const SunTransmittanceMap& sun_transmittance);
-  bool HasSun() const { return Luminance(sky_.sun_normal_lux) > 0.0; }
+  bool HasSun() const { return Luminance(sky_.SunNow()) > 0.0; }
   Result<void> SetRenderSize(const ComposerOptions& options);
   shadows::ShadowMapOptions MapOptions(const ComposerOptions& options) const;
   Result<void> MakeShadows(const shadows::ShadowMapOptions& options);
@@ -226,6 +237,10 @@ Result<void> GlComposer::SetLight(const std::vector<LitMesh>& lit, const sky::Sk
   PLEINAIR_RETURN_IF_ERROR(context_.MakeCurrent());
   SetSun(day, marker_from_world);
   sky_.air = AerialFog(day, marker_from_world);
+  sky_.up = ToGlm(marker_from_world * Vec3{0.0, 0.0, 1.0});
+  sky_.level_sun = day.SunNormalIrradiance() * std::max(0.0, day.ToSun().xyz.z);
+  sky_.level_sky = day.SkyHorizontalIrradiance();
+  sky_.mix = {};
   PLEINAIR_RETURN_IF_ERROR(surfaces_.SetLit(lit));
   if (!surfaces_.materials().HasGloss()) return {};  // No program samples it.
   const EnvironmentMap map = BuildEnvironmentMap(day, marker_from_world, from_below);
@@ -233,6 +248,13 @@ Result<void> GlComposer::SetLight(const std::vector<LitMesh>& lit, const sky::Sk
     sky_.environment.UploadLayer(level, GL_RGB, GL_FLOAT, map.levels[level].data());
   }
   return {};
+}
+
+Result<void> GlComposer::SetLightMix(const std::vector<LitMesh>& lit, const LightMix& mix) {
+  if (mix == sky_.mix) return {};
+  PLEINAIR_RETURN_IF_ERROR(context_.MakeCurrent());
+  sky_.mix = mix;
+  return surfaces_.SetMix(lit, mix);
 }
 
 void GlComposer::SetSun(const sky::SkyModel& day, const Mat3& marker_from_world) {
@@ -296,7 +318,7 @@ Result<void> GlComposer::SortSurfaces() {
               (sunlight_.transmittance && !sunlight_.transmittance->share.empty());
   if (HasSun()) {
     sun.window = shadows_.Window();
-    sun.normal_lux = ToGlm(sky_.sun_normal_lux);
+    sun.normal_lux = ToGlm(sky_.SunNow());
   }
   PLEINAIR_RETURN_IF_ERROR(surfaces_.SortPhantoms(sun));
   return surfaces_.SortObjects(HasSun() ? ToGlm(sky_.to_sun) : glm::vec3(0.0F));
@@ -331,7 +353,8 @@ FrameUniforms GlComposer::FrameOf(const shadows::View& view,
   frame.ray = RaysThroughPixels(canvas_.camera, view);
   frame.exposure_scale = ToGlm(exposure_scale);
   if (HasSun()) frame.to_sun = ToGlm(sky_.to_sun);
-  frame.sun_normal_lux = ToGlm(sky_.sun_normal_lux);
+  frame.sun_normal_lux = ToGlm(sky_.SunNow());
+  frame.environment = {ToGlm(sky_.mix.sky), ToGlm(sky_.LevelMix()), sky_.up};
   if (sunlight_.transmittance && !sunlight_.transmittance->share.empty()) {
     const auto rows = sunlight_.transmittance->TextureFromMarker();
     for (int i = 0; i < 2; ++i) {
@@ -339,6 +362,7 @@ FrameUniforms GlComposer::FrameOf(const shadows::View& view,
     }
   }
   frame.fog = FogBeforeObjects(view, frame.eye_m);
+  for (glm::vec3& light : frame.fog.inscattered) light *= frame.environment.below_mix;
   const auto is_noticed = [&](const glm::vec3& light) {
     const glm::vec3 shown = frame.exposure_scale * light;
     return std::max({shown.r, shown.g, shown.b}) > kNoticeableAir;

@@ -11,6 +11,7 @@
 #include "base/image.h"
 #include "base/vector.h"
 #include "compositor/composer_options.h"
+#include "compositor/light/light_mix.h"
 #include "compositor/light/lit_mesh.h"
 #include "compositor/light/sun_transmittance_map.h"
 #include "compositor/models/placed_model.h"
@@ -48,6 +49,10 @@ class Composer {
   /// horizon.
   virtual Result<void> SetLight(const std::vector<LitMesh>& lit, const sky::SkyModel& daylight,
                                 const Mat3& marker_from_world, LinearRgb from_below) = 0;
+
+  /// Changes the strength of sun and sky for the next images, relative to the light of SetLight(),
+  /// which starts with a mix of 1. `lit`: as in SetLight(). Errors: no memory.
+  virtual Result<void> SetLightMix(const std::vector<LitMesh>& lit, const LightMix& mix) = 0;
 
   /// Moves the sun between two calls of SetLight(). Shadows follow it without jumps. The indirect
   /// illumination, which costs more, stays the same.

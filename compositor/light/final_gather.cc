@@ -113,7 +113,7 @@ class Gatherer {
     for (const int k : {0, 1}) {
       if (!(k == 0 ? with : without)) continue;
       for (int c = 0; c < 3; ++c) light->sky[k][c] += radiance[c];
-      if (above) ++light->sky_rays[k];
+      ++(above ? light->sky_rays : light->land_rays)[k];
     }
   }
 
@@ -196,8 +196,10 @@ FinalGather Gather(const PatchScene& scene, const SkyTable& sky, Vec3 to_sun,
                    const SunTransmittanceMap& sun_transmittance, int rays, int threads) {
   const SunTransmittanceMap* const trees =
       sun_transmittance.share.empty() ? nullptr : &sun_transmittance;
-  return GatherWith(scene, Gatherer(scene, &sky, nullptr, to_sun, trees, rays), rays, threads,
-                    nullptr);
+  FinalGather gathered = GatherWith(scene, Gatherer(scene, &sky, nullptr, to_sun, trees, rays),
+                                    rays, threads, nullptr);
+  gathered.sunlight_from_land = sky.sunlight_from_land();
+  return gathered;
 }
 
 FinalGather GatherPatches(const PatchScene& scene, const SkyPatches& patches, int rays, int threads,
@@ -212,21 +214,30 @@ PatchLight SolveRadiosity(const PatchScene& scene, const FinalGather& gathered,
   constexpr float kPi = std::numbers::pi_v<float>;
   const auto inside = FindBuriedPatches(scene, gathered, threads);
   const float weight = kPi / static_cast<float>(gathered.rays);
+  const auto sunlit_land = [&](std::uint32_t patch, int k) {
+    std::array<float, 3> sum = gathered.sunlight_from_land;
+    for (float& value : sum) value *= static_cast<float>(gathered.patches[patch].land_rays[k]);
+    return sum;
+  };
   PatchLight light;
   for (const int k : {0, 1}) {
     light.irradiance[k].resize(scene.patch_count);
+    light.reflected[k].resize(scene.patch_count);
     for (std::uint32_t v = 0; v < scene.patch_count; ++v) {
       for (int c = 0; c < 3; ++c) {
         light.irradiance[k][v][c] = gathered.patches[v].sky[k][c] * weight;
+        light.reflected[k][v][c] = sunlit_land(v, k)[c] * weight;
       }
     }
     FillFromNeighbours(scene, inside[k], &light.irradiance[k]);
+    FillFromNeighbours(scene, inside[k], &light.reflected[k]);
   }
   for (int bounce = 0; bounce < bounces; ++bounce) {
     const PatchLight previous = light;
     ParallelFor(gathered.blocks.size(), threads, [&](std::size_t block) {
       ForEachPatch(gathered, block, [&](std::uint32_t patch, const Hit* first, const Hit* last) {
         auto sum = gathered.patches[patch].sky;
+        std::array of_sun{sunlit_land(patch, 0), sunlit_land(patch, 1)};
         for (const Hit* hit = first; hit != last; ++hit) {
           const PatchScene::Face& face = scene.faces[hit->face];
           const auto corners = CornersOf(face, *hit);
@@ -236,21 +247,31 @@ PatchLight SolveRadiosity(const PatchScene& scene, const FinalGather& gathered,
           const auto cosine = static_cast<float>(std::fabs(Dot(face.normal, to_sun)));
           for (const int k : {0, 1}) {
             if ((k == 0 ? hit->with : hit->without) == 0) continue;
-            const auto& irradiance = previous.irradiance[k];
             const float sun = (k == 0 ? hit->sun_with : hit->sun_without) != 0 ? cosine : 0.0F;
-            for (int c = 0; c < 3; ++c) {
-              const float ambient = (1.0F - u - v) * irradiance[corners[0]][c] +
-                                    u * irradiance[corners[1]][c] + v * irradiance[corners[2]][c];
-              sum[k][c] += albedo[c] / kPi * (sun_irradiance[c] * sun + ambient);
-            }
+            const auto reflect = [&](const std::vector<std::array<float, 3>>& irradiance,
+                                     std::array<float, 3>* radiance) {
+              for (int c = 0; c < 3; ++c) {
+                const float ambient = (1.0F - u - v) * irradiance[corners[0]][c] +
+                                      u * irradiance[corners[1]][c] + v * irradiance[corners[2]][c];
+                (*radiance)[c] += albedo[c] / kPi * (sun_irradiance[c] * sun + ambient);
+              }
+            };
+            reflect(previous.irradiance[k], &sum[k]);
+            reflect(previous.reflected[k], &of_sun[k]);
           }
         }
         for (const int k : {0, 1}) {
-          for (int c = 0; c < 3; ++c) light.irradiance[k][patch][c] = sum[k][c] * weight;
+          for (int c = 0; c < 3; ++c) {
+            light.irradiance[k][patch][c] = sum[k][c] * weight;
+            light.reflected[k][patch][c] = of_sun[k][c] * weight;
+          }
         }
       });
     });
-    for (const int k : {0, 1}) FillFromNeighbours(scene, inside[k], &light.irradiance[k]);
+    for (const int k : {0, 1}) {
+      FillFromNeighbours(scene, inside[k], &light.irradiance[k]);
+      FillFromNeighbours(scene, inside[k], &light.reflected[k]);
+    }
   }
   return light;
 }

@@ -31,6 +31,7 @@ struct FinalGather {
   struct Patch {
     std::array<std::array<float, 3>, 2> sky{};   ///< Sum of the radiances of escaped rays.
     std::array<std::uint32_t, 2> sky_rays{};     ///< Number of escaped rays above the horizon.
+    std::array<std::uint32_t, 2> land_rays{};    ///< Number of escaped rays below the horizon.
     std::array<std::uint32_t, 2> buried_rays{};  ///< Rays that hit the inside of a body.
     std::array<std::uint32_t, 2> hit_rays{};
   };
@@ -51,6 +52,7 @@ struct FinalGather {
 
   static constexpr std::uint32_t kBlockSize = 256;  ///< Patches per block.
   int rays = 0;                                     ///< Rays per patch.
+  std::array<float, 3> sunlight_from_land{};        ///< SkyTable::sunlight_from_land().
   std::vector<Patch> patches;
   std::vector<Block> blocks;
 };
@@ -71,6 +73,8 @@ FinalGather GatherPatches(const PatchScene& scene, const SkyPatches& patches, in
 /// under a wall, take their neighbours' values. Otherwise they would darken these neighbours.
 struct PatchLight {
   std::array<std::vector<std::array<float, 3>>, 2> irradiance;
+  /// The part of it that is reflected sunlight; the rest comes from the sky.
+  std::array<std::vector<std::array<float, 3>>, 2> reflected;
 };
 PatchLight SolveRadiosity(const PatchScene& scene, const FinalGather& gathered,
                           const std::array<float, 3>& sun_irradiance, Vec3 to_sun, int bounces,

@@ -11,6 +11,7 @@
 #include "compositor/light/patch_scene.h"
 #include "compositor/light/phantom_paths.h"
 #include "compositor/light/sampling.h"
+#include "compositor/light/scaled_sky.h"
 #include "compositor/light/sky_table.h"
 #include "compositor/light/sun_visibility.h"
 
@@ -82,7 +83,11 @@ LitMesh MakeLitMesh(const PatchScene& scene, const PatchScene::MeshSide& mesh_si
   mesh.uvs = mesh_side.mesh.uvs;
   mesh.indices = mesh_side.mesh.indices;
   mesh.ambient_with = scene.VertexLight(mesh_side, light.irradiance[0]);
-  if (mesh.is_phantom) mesh.ambient_without = scene.VertexLight(mesh_side, light.irradiance[1]);
+  mesh.reflected_with = scene.VertexLight(mesh_side, light.reflected[0]);
+  if (mesh.is_phantom) {
+    mesh.ambient_without = scene.VertexLight(mesh_side, light.irradiance[1]);
+    mesh.reflected_without = scene.VertexLight(mesh_side, light.reflected[1]);
+  }
   return mesh;
 }
 
@@ -178,13 +183,20 @@ std::vector<LitMesh> LightSolver::Relight(const DaylightCoefficients& coefficien
   const auto sky = patches.Radiances(daylight, marker_from_world, kLandAlbedo);
   const auto sun = patches.Sun(daylight, marker_from_world);
   PatchLight light;
-  for (auto& irradiance : light.irradiance) irradiance.resize(scene_->patch_count);
-  coefficients.with.Multiply(sky, sun, light.irradiance[0]);
-  // Virtual objects have no light in the case without them.
-  for (const auto& [first, count] : PhantomPatches(*scene_)) {
-    coefficients.without.Multiply(sky, sun, std::span(light.irradiance[1]).subspan(first, count),
-                                  first);
-  }
+  const auto sunlit_land =
+      patches.Radiances(ScaledSky(daylight, {}, {1.0, 1.0, 1.0}), marker_from_world, kLandAlbedo);
+  const auto multiply = [&](std::span<const LinearRgb> of_sky,
+                            std::array<std::vector<std::array<float, 3>>, 2>* irradiance) {
+    for (auto& values : *irradiance) values.resize(scene_->patch_count);
+    coefficients.with.Multiply(of_sky, sun, (*irradiance)[0]);
+    // Virtual objects have no light in the case without them.
+    for (const auto& [first, count] : PhantomPatches(*scene_)) {
+      coefficients.without.Multiply(of_sky, sun, std::span((*irradiance)[1]).subspan(first, count),
+                                    first);
+    }
+  };
+  multiply(sky, &light.irradiance);
+  multiply(sunlit_land, &light.reflected);
   return MakeLitMeshes(*scene_, first_geometry_, light, [&](const PatchScene::MeshSide& mesh_side) {
     // A subset of the patches suffices to find the side that faces the sky.
     const std::size_t size = mesh_side.patch_count;

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include "compositor/light/light_mix.h"
 #include "compositor/models/model.h"
 
 namespace pleinair::compositor {
@@ -46,8 +48,27 @@ struct LitMesh {
   std::vector<std::array<float, 3>> ambient_with;
   /// The same with the phantoms alone. Empty for virtual objects.
   std::vector<std::array<float, 3>> ambient_without;
+  /// The part of ambient_with and ambient_without that is reflected sunlight. The rest comes from
+  /// the sky. Empty: none of it.
+  std::vector<std::array<float, 3>> reflected_with, reflected_without;
   std::vector<std::uint32_t> indices;
   SunVisibilities sun_visibility;
+
+  /// The light of a vertex when sun and sky are `mix` times as strong.
+  std::array<float, 3> AmbientWith(std::size_t vertex, const LightMix& mix) const {
+    return Mixed(ambient_with, reflected_with, vertex, mix);
+  }
+  std::array<float, 3> AmbientWithout(std::size_t vertex, const LightMix& mix) const {
+    return Mixed(ambient_without, reflected_without, vertex, mix);
+  }
+
+ private:
+  using Light = std::vector<std::array<float, 3>>;
+  static std::array<float, 3> Mixed(const Light& ambient, const Light& reflected,
+                                    std::size_t vertex, const LightMix& mix) {
+    return mix.Ambient(ambient[vertex],
+                       reflected.empty() ? std::array<float, 3>{} : reflected[vertex]);
+  }
 };
 
 }  // namespace pleinair::compositor

@@ -22,8 +22,9 @@ SkyTable::SkyTable(const sky::SkyModel& day, const Mat3& marker_from_world, doub
       up_(marker_from_world * Vec3{0.0, 0.0, 1.0}),
       nodes_(static_cast<std::size_t>(kSide) * kSide) {
   const double sine_sun = std::max(0.0, day.ToSun().xyz.z);
-  const LinearRgb level = day.SunNormalIrradiance() * sine_sun + day.SkyHorizontalIrradiance();
-  land_ = ToFloats(level * (land_albedo / std::numbers::pi));
+  const LinearRgb level_sun = day.SunNormalIrradiance() * sine_sun;
+  land_ = ToFloats((level_sun + day.SkyHorizontalIrradiance()) * (land_albedo / std::numbers::pi));
+  sunlight_from_land_ = ToFloats(level_sun * (land_albedo / std::numbers::pi));
   // Cigolle et al. 2014, "A Survey of Efficient Representations for Independent Unit Vectors",
   // hemi-oct: the upper hemisphere's octahedron, rotated by 45° to fill the square.
   for (int row = 0; row < kSide; ++row) {

@@ -24,13 +24,16 @@ class SkyTable {
   /// Radiance from a unit direction in marker coordinates: cd/m², linear Rec.709.
   std::array<float, 3> Radiance(Vec3 direction_in_marker) const;
 
+  /// The part of the radiance from below the horizon that is reflected sunlight.
+  const std::array<float, 3>& sunlight_from_land() const { return sunlight_from_land_; }
+
   /// Sine of the elevation of a direction in marker coordinates.
   double SineElevation(Vec3 direction_in_marker) const { return Dot(up_, direction_in_marker); }
 
  private:
   Mat3 world_from_marker_;
   Vec3 up_;  ///< Marker coordinates.
-  std::array<float, 3> land_{};
+  std::array<float, 3> land_{}, sunlight_from_land_{};
   std::vector<std::array<float, 3>> nodes_;  ///< Hemi-octahedral map, row-major.
 };
 

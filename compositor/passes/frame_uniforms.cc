@@ -26,6 +26,12 @@ void FrameUniforms::SetFog(const gl::GlProgram& program) const {
                    std::vector<glm::vec3>(fog.inscattered.begin(), fog.inscattered.end()));
 }
 
+void FrameUniforms::SetEnvironment(const gl::GlProgram& program) const {
+  program.Set("u_sky_mix", environment.sky_mix);
+  program.Set("u_below_mix", environment.below_mix);
+  program.Set("u_up", environment.up);
+}
+
 void FrameUniforms::SetSunTransmittance(const gl::GlProgram& program) const {
   program.Set("u_sun_transmittance_s", texture_from_marker[0]);
   program.Set("u_sun_transmittance_t", texture_from_marker[1]);

@@ -8,6 +8,13 @@
 
 namespace pleinair::compositor {
 
+/// How a frame changes the environment that glossy surfaces mirror.
+struct EnvironmentMix {
+  glm::vec3 sky_mix{1.0F};    ///< Strength of the sky.
+  glm::vec3 below_mix{1.0F};  ///< Strength of the light from below the horizon.
+  glm::vec3 up{0.0F, 0.0F, 1.0F};
+};
+
 /// Per-frame uniforms of the programs that shade surfaces. Marker coordinates, metres.
 struct FrameUniforms {
   glm::mat4 clip_from_marker{1.0F};
@@ -16,6 +23,7 @@ struct FrameUniforms {
   glm::vec3 exposure_scale{0.0F};  ///< Display-linear value per radiance.
   glm::vec3 to_sun{0.0F};          ///< Unit; zero without a sun.
   glm::vec3 sun_normal_lux{0.0F};
+  EnvironmentMix environment;
   std::array<glm::vec4, 2> texture_from_marker{};  ///< For the map of SunTransmittanceMap.
   FogSplits fog;
   /// The airlight in front of the farthest real surface is noticeable.
@@ -28,6 +36,8 @@ struct FrameUniforms {
   /// For shaders/visible_surface.glsl.
   void SetRays(const gl::GlProgram& program) const;
   void SetFog(const gl::GlProgram& program) const;
+  /// For the mirrored environment of shaders/virtual_object.frag.
+  void SetEnvironment(const gl::GlProgram& program) const;
   /// For shaders/sun_transmittance_map.glsl.
   void SetSunTransmittance(const gl::GlProgram& program) const;
 };

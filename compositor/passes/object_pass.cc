@@ -77,6 +77,7 @@ void ObjectPass::Draw(const RenderTargets& targets, const SceneSurfaces& surface
     frame.Set(program);
     frame.SetRays(program);
     frame.SetFog(program);
+    frame.SetEnvironment(program);
     frame.SetSunTransmittance(program);
     glDrawArrays(GL_TRIANGLES, 0, 3);
   }

@@ -29,6 +29,8 @@ uniform vec3 u_fog_inscattered[kFogSplits];
 layout(binding = 0) uniform usampler2D u_visible;  // From object_pixels.frag.
 #ifdef GLOSSY
 layout(binding = 3) uniform sampler2DArray u_environment;  // EnvironmentMap, one layer per roughness.
+uniform vec3 u_sky_mix, u_below_mix;  // Strength above and below the horizon, by the frame's light.
+uniform vec3 u_up;                    // Unit, marker coordinates.
 #endif
 #ifdef TEXTURED
 #include "compositor/shaders/texel_code.glsl"
@@ -67,7 +69,10 @@ vec3 PrefilteredEnvironment(vec3 direction, float roughness) {
   // Explicit level: the next pixel may show another surface, and the direction jumps at ±π.
   vec3 low = textureLod(u_environment, vec3(uv, floor(level)), 0.0).rgb;
   vec3 high = textureLod(u_environment, vec3(uv, ceil(level)), 0.0).rgb;
-  return mix(low, high, fract(level));
+  // A rough reflection sees both sides of the horizon.
+  float width = max(roughness, 0.02);
+  vec3 strength = mix(u_below_mix, u_sky_mix, smoothstep(-width, width, dot(direction, u_up)));
+  return strength * mix(low, high, fract(level));
 }
 
 // Specular reflection of the sun and the environment by metals and coats. `sun` includes the

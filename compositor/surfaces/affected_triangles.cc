@@ -24,7 +24,7 @@ AffectedTriangles::AffectedTriangles(const LitMesh& phantom) : triangles_(phanto
   SetLight(phantom);
 }
 
-void AffectedTriangles::SetLight(const LitMesh& phantom) {
+void AffectedTriangles::SetLight(const LitMesh& phantom, const LightMix& mix) {
   const std::size_t count = phantom.ambient_with.size();
   ambient_.changes.clear();
   ambient_.with.clear();
@@ -33,8 +33,8 @@ void AffectedTriangles::SetLight(const LitMesh& phantom) {
   ambient_.with.reserve(count);
   ambient_.without.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
-    const auto& [r, g, b] = phantom.ambient_with[i];
-    const auto& [r0, g0, b0] = phantom.ambient_without[i];
+    const auto [r, g, b] = phantom.AmbientWith(i, mix);
+    const auto [r0, g0, b0] = phantom.AmbientWithout(i, mix);
     const glm::vec3 with(r, g, b), without(r0, g0, b0);
     ambient_.with.push_back(with);
     ambient_.without.push_back(without);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "compositor/composer_options.h"
+#include "compositor/light/light_mix.h"
 #include "compositor/light/lit_mesh.h"
 #include "compositor/light/sun_footprint.h"
 #include "compositor/surfaces/linear_shadow_ratio.h"
@@ -31,7 +32,7 @@ class AffectedTriangles {
 
   explicit AffectedTriangles(const LitMesh& phantom);
   /// Sets new light for the same triangles, valid from the next Sort().
-  void SetLight(const LitMesh& phantom);
+  void SetLight(const LitMesh& phantom, const LightMix& mix = {});
 
   /// Sorts the triangles; ends() then has one past the last index of each kind. `objects` belongs
   /// to the same window. `sun_normal_lux`: linear Rec.709, for linear_ratios(). Without a

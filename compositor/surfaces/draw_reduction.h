@@ -39,7 +39,9 @@ class DrawReduction {
   void AddPhantom(const LitMesh& phantom);
   void AddObject(const LitMesh& object);
   /// Sets new light for the same triangles. `phantom`: index in the order of addition.
-  void SetLight(std::size_t phantom, const LitMesh& mesh) { phantoms_[phantom].SetLight(mesh); }
+  void SetLight(std::size_t phantom, const LitMesh& mesh, const LightMix& mix = {}) {
+    phantoms_[phantom].SetLight(mesh, mix);
+  }
   /// Forces the next SortPhantoms() after light changed or objects moved, whatever the sun.
   void Invalidate() { sorted_for_.reset(); }
 

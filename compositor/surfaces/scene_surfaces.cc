@@ -25,18 +25,22 @@ Result<void> SceneSurfaces::SetLit(const std::vector<LitMesh>& lit) {
   if (!HasSurfacesOf(lit)) PLEINAIR_RETURN_IF_ERROR(SetSurfaces(lit));
   placement_.Reset(materials_.model_count(), surfaces_);
   objects_placed_ = false;
+  return SetMix(lit, {});
+}
+
+Result<void> SceneSurfaces::SetMix(const std::vector<LitMesh>& lit, const LightMix& mix) {
   reduction_.Invalidate();
   std::vector<const LitMesh*> phantoms, objects;
   for (std::size_t i = 0; i < lit.size(); ++i) {
     if (surfaces_[i].is_phantom()) {
-      reduction_.SetLight(phantoms.size(), lit[i]);
+      reduction_.SetLight(phantoms.size(), lit[i], mix);
       phantoms.push_back(&lit[i]);
     } else if (surfaces_[i].IsDrawnObject()) {
       objects.push_back(&lit[i]);
     }
   }
-  PLEINAIR_RETURN_IF_ERROR(phantom_buffer_.SetLight(phantoms));
-  return object_buffer_.SetLight(objects);
+  PLEINAIR_RETURN_IF_ERROR(phantom_buffer_.SetLight(phantoms, mix));
+  return object_buffer_.SetLight(objects, mix);
 }
 
 Result<void> SceneSurfaces::SetSurfaces(const std::vector<LitMesh>& lit) {

@@ -26,8 +26,9 @@ class SceneSurfaces {
   /// Makes a scene without surfaces until SetLit(). Errors as UploadTextures().
   static Result<SceneSurfaces> Create(const std::vector<PlacedModel>& scene);
 
-  /// As Composer::SetLight() and Composer::MoveModel().
+  /// As Composer::SetLight(), SetLightMix() and MoveModel().
   Result<void> SetLit(const std::vector<LitMesh>& lit);
+  Result<void> SetMix(const std::vector<LitMesh>& lit, const LightMix& mix);
   void Move(int placed_model, const Mat3& linear, Vec3 translation_m);
 
   /// As Composer::SetOptions() for ComposerOptions::reductions.

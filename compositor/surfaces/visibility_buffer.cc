@@ -58,7 +58,8 @@ Result<VisibilityBuffer> VisibilityBuffer::Create(std::span<const LitMesh* const
   return table;
 }
 
-Result<void> VisibilityBuffer::SetLight(std::span<const LitMesh* const> meshes) {
+Result<void> VisibilityBuffer::SetLight(std::span<const LitMesh* const> meshes,
+                                        const LightMix& mix) {
   std::size_t count = 0;
   for (const LitMesh* mesh : meshes) count += mesh->positions.size();
   std::vector<Texel> vertices;
@@ -67,10 +68,10 @@ Result<void> VisibilityBuffer::SetLight(std::span<const LitMesh* const> meshes) 
     for (std::size_t i = 0; i < mesh->positions.size(); ++i) {
       const auto& [x, y, z] = mesh->positions[i];
       const auto& [nx, ny, nz] = mesh->normals[i];
-      const auto& [r, g, b] = mesh->ambient_with[i];
+      const auto [r, g, b] = mesh->AmbientWith(i, mix);
       // Virtual objects have no light in the case without them.
-      const auto& [r0, g0, b0] =
-          mesh->is_phantom ? mesh->ambient_without[i] : mesh->ambient_with[i];
+      const auto [r0, g0, b0] =
+          mesh->is_phantom ? mesh->AmbientWithout(i, mix) : mesh->AmbientWith(i, mix);
       vertices.insert(vertices.end(), {{x, y, z, nx}, {r, g, b, ny}, {r0, g0, b0, nz}});
     }
   }

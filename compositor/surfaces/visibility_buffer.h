@@ -40,7 +40,7 @@ class VisibilityBuffer {
                                          std::span<const float> values);
 
   /// Sets the vertices and their light, for the meshes passed to Create(). Errors as Create().
-  Result<void> SetLight(std::span<const LitMesh* const> meshes);
+  Result<void> SetLight(std::span<const LitMesh* const> meshes, const LightMix& mix = {});
 
   /// Numbers each mesh's triangles before the last of its ends, in order. Memory is reused between
   /// calls and never shrinks. Errors as Create().

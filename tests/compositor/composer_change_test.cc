@@ -11,6 +11,7 @@
 
 #include "base/srgb.h"
 #include "compositor/composer.h"
+#include "compositor/light/scaled_sky.h"
 #include "tests/compositor/composer_scene.h"
 
 namespace pleinair::compositor {
@@ -198,6 +199,40 @@ TEST(Composer, BelievesNoDarkCornerOfAPhantom) {
   for (int twentieth = 10; twentieth < 18; ++twentieth) {
     const double at = twentieth / 20.0;
     EXPECT_NEAR(SeenAt(*composed, {at, at, 0}) / LinearFromSrgb8()[150], 0.95, 0.01) << at;
+  }
+}
+
+TEST(Composer, MixesSunAndSkyAsIfTheyHadBeenSolvedSo) {
+  const PlacedModel cube = Place(MakeBox({-0.15, -0.15, 0.001}, {0.15, 0.15, 0.3}, 0.5F), false);
+  const std::vector<PlacedModel> scene{kGround, cube};
+  const auto solver = LightSolver::Create(scene, {.rays_per_vertex = 64});
+  ASSERT_TRUE(solver.has_value());
+  const SouthernSun day;
+  const std::vector<LitMesh> lit = (*solver)->Solve(day, Mat3{});
+  const auto draw = [&](const sky::SkyModel& lit_by, const std::vector<LitMesh>& meshes,
+                        const LightMix& mix) {
+    const auto composer = Composer::Create(kCamera, scene, {});
+    EXPECT_TRUE(composer.has_value());
+    EXPECT_TRUE((*composer)->SetLight(meshes, lit_by, Mat3{}, {}));
+    EXPECT_TRUE((*composer)->SetLightMix(meshes, mix));
+    auto composed = (*composer)->Compose(EvenPicture(120).view(), kFromAbove,
+                                         {kExposureScale, kExposureScale, kExposureScale});
+    EXPECT_TRUE(composed.has_value());
+    return *std::move(composed);
+  };
+  for (const LightMix& mix :
+       {LightMix{{0.2, 0.3, 0.4}, {1.2, 1.1, 1.3}}, LightMix{{0, 0, 0}, {1, 1, 1}}}) {
+    const ScaledSky mixed(day, mix.sky, mix.sun);
+    const RgbImage as_mixed = draw(day, lit, mix);
+    const RgbImage as_solved = draw(mixed, (*solver)->Solve(mixed, Mat3{}), {});
+    int other = 0;
+    for (std::size_t i = 0; i < as_mixed.size(); ++i) {
+      const int difference = std::abs(as_mixed.data()[i] - as_solved.data()[i]);
+      EXPECT_LE(difference, 1);
+      other += difference;
+    }
+    EXPECT_LT(other, static_cast<int>(as_mixed.size() / 1000));
+    EXPECT_NE(SeenAt(as_mixed, {0, 0, 0.3}), SeenAt(draw(day, lit, {}), {0, 0, 0.3}));
   }
 }
 

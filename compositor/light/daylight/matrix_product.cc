@@ -18,9 +18,10 @@ namespace hn = hwy::HWY_NAMESPACE;
 constexpr int kP = CoefficientMatrix::kPatches, kL = CoefficientMatrix::kLanes;
 
 /// Multiplies one block of vertices. `weights`: radiances of the patches, ordered by chunk, then by
-/// plane. The direct plane has three weights, one per channel.
-void MultiplyBlock(const std::uint8_t* codes, const float* scales, const float* weights, int chunks,
-                   float* out) {
+/// plane. The direct plane has three weights, one per channel. `dark`: chunks whose weights are all
+/// 0.
+void MultiplyBlock(const std::uint8_t* codes, const float* scales, const float* weights,
+                   const std::uint8_t* dark, int chunks, float* out) {
   const hn::CappedTag<float, CoefficientMatrix::kLanes> floats;
   const hn::Rebind<std::int32_t, decltype(floats)> ints;
   const hn::Rebind<std::uint8_t, decltype(floats)> bytes;
@@ -33,7 +34,9 @@ void MultiplyBlock(const std::uint8_t* codes, const float* scales, const float* 
     const std::uint8_t* tile = codes;
     const float* scale = scales + lane;
     const float* weight = weights;
-    for (int chunk = 0; chunk < chunks; ++chunk) {
+    for (int chunk = 0; chunk < chunks; ++chunk, tile += CoefficientMatrix::kPlanes * kP * kL,
+             scale += CoefficientMatrix::kPlanes * kL, weight += 6 * kP) {
+      if (dark[chunk] != 0) continue;
       auto r = hn::Zero(floats), g = r, b = r;
       for (int patch = 0; patch < kP; ++patch) {
         const auto value = load(tile, patch);
@@ -58,9 +61,6 @@ void MultiplyBlock(const std::uint8_t* codes, const float* scales, const float* 
       red = hn::Add(red, reflected(1));
       green = hn::Add(green, reflected(2));
       blue = hn::Add(blue, reflected(3));
-      tile += CoefficientMatrix::kPlanes * kP * kL;
-      scale += CoefficientMatrix::kPlanes * kL;
-      weight += 6 * kP;
     }
     hn::StoreU(red, floats, out + lane);
     hn::StoreU(green, floats, out + kL + lane);
@@ -134,12 +134,22 @@ void CoefficientMatrix::Multiply(std::span<const LinearRgb> sky, std::span<const
   const std::size_t end = first + irradiance.size();
   CHECK_LE(end, vertices_);
   const std::vector<float> weights = Weights(sky, sun, chunks());
+  // The sun lies in few patches. A chunk without light needs no reading.
+  std::vector<std::uint8_t> dark(static_cast<std::size_t>(chunks()));
+  for (std::size_t chunk = 0; chunk < dark.size(); ++chunk) {
+    const auto first_weight =
+        weights.begin() + static_cast<std::ptrdiff_t>(chunk * kWeightPlanes * kPatches);
+    dark[chunk] = std::all_of(first_weight, first_weight + kWeightPlanes * kPatches,
+                              [](float weight) { return weight == 0.0F; })
+                      ? 1
+                      : 0;
+  }
   std::array<float, 3 * kLanes> sums;
   for (std::size_t block = first / kLanes; block * kLanes < end; ++block) {
     const std::size_t tile = Tile(block, 0, 0);
     HWY_DYNAMIC_DISPATCH(MultiplyBlock)
     (codes_.data() + tile * kPatches * kLanes, scales_.data() + tile * kLanes, weights.data(),
-     chunks(), sums.data());
+     dark.data(), chunks(), sums.data());
     const std::size_t last = std::min(end, (block + 1) * kLanes);
     for (std::size_t vertex = std::max(first, block * kLanes); vertex < last; ++vertex) {
       const std::size_t lane = vertex % kLanes;

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <vector>
 
+#include "compositor/light/scaled_sky.h"
 #include "sky/daylight.h"
 #include "tests/compositor/light/light_scenes.h"
 
@@ -83,6 +84,45 @@ TEST(LightSolver, TurnsTheSkyWithTheMarker) {
   EXPECT_NEAR(level.g, kPi, 0.01 * kPi);
   // Half the sky and half the land; the land has albedo 0.2 under the whole sky.
   EXPECT_NEAR(wall.g, 0.5 * kPi + 0.5 * 0.2 * kPi, 0.01 * kPi);
+}
+
+/// Light of meshes without what they reflect of the sun.
+std::vector<std::array<float, 3>> FromSky(const LitMesh& mesh) {
+  std::vector<std::array<float, 3>> light;
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    light.push_back(mesh.AmbientWith(i, {.sun = {0, 0, 0}}));
+  }
+  return light;
+}
+
+TEST(LightSolver, KeepsSunAndSkyApart) {
+  // A box in a corner of the ground, so that sunlight comes by one and by two reflections and from
+  // the land.
+  const auto solver =
+      MakeSolver({Phantom(Ground(1.0, {0.5F, 0.4F, 0.3F})),
+                  Object(BoxModel({-0.2, -0.2, 0.0}, {0.2, 0.2, 0.4}, {0.5F, 0.6F, 0.7F}))});
+  const ClearDay day;
+  const ScaledSky without_sun(day, {1, 1, 1}, {});
+  const auto coefficients = solver->Coefficients(kUp, {}, {});
+  const auto expect_apart = [](const std::vector<LitMesh>& both, const std::vector<LitMesh>& sky) {
+    ASSERT_EQ(both.size(), sky.size());
+    double reflected = 0.0;
+    for (std::size_t mesh = 0; mesh < both.size(); ++mesh) {
+      const auto from_sky = FromSky(both[mesh]);
+      ASSERT_EQ(from_sky.size(), sky[mesh].ambient_with.size());
+      for (std::size_t i = 0; i < from_sky.size(); ++i) {
+        for (int c = 0; c < 3; ++c) {
+          const float expected = sky[mesh].ambient_with[i][c];
+          ASSERT_NEAR(from_sky[i][c], expected, 1e-4 * (expected + 1000.0F));
+          reflected = std::max<double>(reflected, both[mesh].ambient_with[i][c] / expected);
+        }
+      }
+    }
+    EXPECT_GT(reflected, 1.5) << "the sun must matter";
+  };
+  expect_apart(solver->Solve(day, Mat3{}), solver->Solve(without_sun, Mat3{}));
+  expect_apart(solver->Relight(coefficients, day, Mat3{}),
+               solver->Relight(coefficients, without_sun, Mat3{}));
 }
 
 TEST(LightSolver, LeavesHalfTheSkyToAWallOnDarkGround) {
