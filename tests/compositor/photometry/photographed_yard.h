@@ -71,6 +71,7 @@ class PhotographedYard {
   struct Light {
     LinearRgb sky_radiance_scale{1.0, 1.0, 1.0};
     double sun_scale = 1.0;
+    double exposure = 1.0;  ///< Times kExposureScale.
     /// True where an unmodelled object shades the point.
     std::function<bool(Vec3)> shaded = [](Vec3) { return false; };
     /// If true, surfaces have the model's colors and the marker its white. Otherwise all have the
@@ -105,7 +106,7 @@ class PhotographedYard {
         const LinearRgb e = Irradiance(*seen, light, sun);
         const LinearRgb albedo = (light.colors_as_described ? StatedAlbedo(*seen) : Albedo(*seen)) *
                                  light.brighter(seen->point.xyz);
-        const LinearRgb radiance = e * albedo * (1 / std::numbers::pi);
+        const LinearRgb radiance = e * albedo * (light.exposure / std::numbers::pi);
         image(x, y, 0) = response.Encoded8(radiance.r * kExposureScale, 0);
         image(x, y, 1) = response.Encoded8(radiance.g * kExposureScale, 1);
         image(x, y, 2) = response.Encoded8(radiance.b * kExposureScale, 2);

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "base/camera_model.h"
+#include "base/camera_response.h"
+#include "base/frames.h"
+#include "base/image.h"
+#include "base/vector.h"
+#include "compositor/light/phantom_rays.h"
+#include "scene/marker_reflectance.h"
+#include "sky/sky_model.h"
+
+namespace pleinair::compositor {
+
+/// A point on a real surface whose brightness is followed from frame to frame. Marker coordinates.
+struct LightProbe {
+  Point<Marker> point;
+  Vec3 normal;
+};
+
+/// Brightness of the probes that one frame shows, neither covered nor clipped.
+struct ProbedFrame {
+  std::int64_t frame_index = 0;
+  std::int64_t timestamp_ns = 0;  ///< Since the recording's start.
+  std::vector<std::uint32_t> probes;
+  std::vector<std::array<float, 3>> linear;  ///< Display-linear, per entry of `probes`.
+};
+
+/// Follows probes through the frames of a recording: about a thousand per frame on the phantoms and
+/// on the marker's white. Costs about two milliseconds a frame.
+class LightProbes {
+ public:
+  /// `phantoms` must outlive this object.
+  LightProbes(const PhantomRays& phantoms, const CameraModel& camera,
+              const CameraResponse& response);
+
+  /// Adds a frame; new surfaces in view get new probes. Frames must come in order.
+  void AddFrame(ImageView<const std::uint8_t> rgb, const Transform<Camera, Marker>& pose,
+                const scene::MarkerReflectance& marker, std::int64_t frame_index,
+                std::int64_t timestamp_ns);
+
+  const std::vector<LightProbe>& probes() const { return probes_; }
+  const std::vector<ProbedFrame>& frames() const { return frames_; }
+
+ private:
+  void AddMarker(const scene::MarkerReflectance& marker);
+  /// Returns whether the probe's pixel lies in the image, and appends its brightness if it is
+  /// visible and not clipped.
+  bool Observe(ImageView<const std::uint8_t> rgb, const Transform<Camera, Marker>& pose,
+               std::uint32_t probe, Vec2* pixel, ProbedFrame* frame) const;
+
+  const PhantomRays& phantoms_;
+  CameraModel camera_;
+  CameraResponse response_;
+  std::vector<LightProbe> probes_;
+  std::vector<ProbedFrame> frames_;
+};
+
+/// How a light would fall on a probe, lux, linear Rec.709.
+struct ProbeLight {
+  LinearRgb direct;             ///< Of the sun where nothing occludes it.
+  double sun_visibility = 0.0;  ///< Share of `direct` that the phantoms transmit.
+  LinearRgb reflected;          ///< Sunlight by way of other surfaces.
+  LinearRgb sky;                ///< Skylight, direct and reflected.
+};
+
+/// The light of `day` on each probe. `marker_from_world` has the heading in use.
+std::vector<ProbeLight> LightOn(const std::vector<LightProbe>& probes, const PhantomRays& phantoms,
+                                const sky::SkyModel& day, const Mat3& marker_from_world);
+
+}  // namespace pleinair::compositor
