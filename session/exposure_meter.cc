@@ -4,19 +4,21 @@ namespace pleinair::session {
 
 void ExposureMeter::Read(ImageView<const std::uint8_t> rgb, const CameraModel& camera,
                          const Transform<Camera, Marker>& camera_from_marker,
-                         LinearRgb marker_shade, LightSummary* summary) {
+                         LinearRgb marker_shade, const FollowedLight& followed,
+                         LightSummary* summary) {
   using ExposureScaleSource = LightSummary::ExposureScaleSource;
   if (locked_ && !filter_.empty()) return;
   const auto estimate = meter_ ? meter_->Measure(rgb, camera, camera_from_marker) : std::nullopt;
   if (estimate) {
-    filter_.Add(estimate->exposure_scale * marker_shade, estimate->error);
+    filter_.Add(estimate->exposure_scale * marker_shade / followed.marker_light, estimate->error);
     ++summary->exposure_estimates;
     summary->dappled_estimates += estimate->dappled ? 1 : 0;
     summary->marker_sunlit_share = estimate->sunlit_share;
   }
   summary->exposure_scale_source =
       filter_.empty() ? ExposureScaleSource::kGuess : ExposureScaleSource::kMarker;
-  summary->exposure_scale = filter_.empty() ? guess_ : filter_.ExposureScale();
+  summary->exposure_scale =
+      (filter_.empty() ? guess_ : filter_.ExposureScale()) * followed.exposure;
   if (!filter_.empty()) summary->exposure_scale_error = filter_.Error();
   summary->exposure_scale_change = filter_.Change();
 }

@@ -10,6 +10,7 @@
 #include "base/vector.h"
 #include "compositor/photometry/exposure_filter.h"
 #include "compositor/photometry/marker/marker_light_meter.h"
+#include "session/light_follower.h"
 #include "session/light_summary.h"
 
 namespace pleinair::session {
@@ -29,9 +30,10 @@ class ExposureMeter {
   void SetLocked(bool locked) { locked_ = locked; }
 
   /// Measures a frame and writes the result to `summary`. `marker_shade`: SkyState::marker_shade.
+  /// `followed`: how the frame's light differs from the meter's.
   void Read(ImageView<const std::uint8_t> rgb, const CameraModel& camera,
             const Transform<Camera, Marker>& camera_from_marker, LinearRgb marker_shade,
-            LightSummary* summary);
+            const FollowedLight& followed, LightSummary* summary);
 
  private:
   std::optional<compositor::MarkerLightMeter> meter_;

@@ -7,9 +7,16 @@
 
 namespace pleinair::session {
 
+/// What is done about light that changes within a recording.
+enum class LightChangeMode {
+  kFollow,  ///< Sun and sky are estimated in each frame.
+  kHold,    ///< One light for the whole recording; only the exposure may change.
+};
+
 /// User options for the light and the camera image, for recordings and live sessions.
 struct LightOptions {
   compositor::LightOverrides overrides;
+  LightChangeMode changes = LightChangeMode::kFollow;
   bool match_look = true;  ///< Drawn pixels receive the frames' blur and noise.
   /// Objects that cover the marker are in front of the virtual objects.
   bool hands_in_front = false;

@@ -5,6 +5,7 @@
 #include "base/vector.h"
 #include "compositor/photometry/measured_light.h"
 #include "compositor/picture/camera_look.h"
+#include "session/light_follower.h"
 #include "sky/sun/sun_position.h"
 
 namespace pleinair::session {
@@ -21,6 +22,10 @@ struct LightSummary {
   enum class ExposureScaleSource { kMarker, kScene, kGuess };
   ExposureScaleSource exposure_scale_source = ExposureScaleSource::kMarker;
   LinearRgb exposure_scale;  ///< Display-linear value per cd/m².
+  /// Display-linear value that a white, level, Lambertian surface in the open has of the sun and of
+  /// the sky.
+  LinearRgb sun_on_white, sky_on_white;
+  FollowedLight followed;  ///< How this frame's light differs from that of the recording.
   /// See ExposureFilter::Error(); only for kMarker.
   LinearRgb exposure_scale_error;
   /// See ExposureFilter::Change().

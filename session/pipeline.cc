@@ -17,6 +17,7 @@ Pipeline::Pipeline(const CameraModel& camera, const scene::SceneDescription& sce
           ScaleCamera(camera, options.image_size.value_or(ImageSize{camera.width, camera.height}))),
       scene_(scene),
       hands_in_front_(options.light.hands_in_front),
+      follows_light_(options.light.changes == LightChangeMode::kFollow),
       kept_observations_(options.kept_observations),
       tracks_(scene.marker) {}
 
@@ -84,10 +85,22 @@ std::vector<TrackedFrame> Pipeline::Measure(std::span<FoundFrame> found) {
   std::vector<TrackedFrame> tracked(found.size());
   for (std::size_t i = 0; i < found.size(); ++i) {
     AddToTracks(found[i].frame, seen[i].observations);
+    ProbeLight(found[i].frame);
     tracked[i] = {std::move(seen[i].observations), std::move(found[i].lost),
                   std::move(found[i].warnings)};
   }
   return tracked;
+}
+
+void Pipeline::ProbeLight(const devices::Frame& last_tracked) {
+  if (!follows_light_ || !renderer_->DrawsObjects()) return;
+  const std::optional<CameraPose> pose = PoseIn(last_tracked);
+  if (!pose) return;
+  const ImageView<const std::uint8_t> rgb = last_tracked.rgb.view();
+  renderer_->ProbeLight(rgb, ScaleCamera(output_camera_, {rgb.width(), rgb.height()}),
+                        pose->observation.camera_from_marker, last_tracked.index,
+                        last_tracked.timestamp_ns,
+                        MarkerReflectanceOf(scene_.marker, pose->marker));
 }
 
 void Pipeline::AddToTracks(const devices::Frame& frame,
@@ -136,11 +149,17 @@ Result<ComposedFrame> Pipeline::Compose(ImageView<const std::uint8_t> rgb,
   compositor::MarkerVisibility visibility;
   if (hands_in_front_) visibility = VisibilityOf(scene_.marker, pose->marker, seen);
   PLEINAIR_ASSIGN_OR_RETURN(composed.image,
-                            renderer_->Render(rgb, seen.camera_from_marker, time, visibility));
+                            renderer_->Render(rgb, seen.camera_from_marker, time, visibility,
+                                              FollowedIn(seen.frame_index)));
   if (!renderer_->DrawsObjects()) return composed;
   composed.light = renderer_->light();
   composed.times = renderer_->times();
   return composed;
+}
+
+FollowedLight Pipeline::FollowedIn(std::int64_t frame_index) const {
+  const LightFollower* follower = renderer_->light_follower();
+  return follower != nullptr ? follower->Of(frame_index) : FollowedLight{};
 }
 
 UtcTime Pipeline::MomentOf(std::int64_t timestamp_ns) const {

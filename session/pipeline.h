@@ -28,6 +28,7 @@ namespace pleinair::session {
 
 class MarkerRefiner;
 class SceneRenderer;
+struct FollowedLight;
 
 /// How a Pipeline tracks and composes.
 struct PipelineOptions {
@@ -142,10 +143,15 @@ class Pipeline {
   void AddToTracks(const devices::Frame& frame,
                    const std::vector<tracker::MarkerObservation>& observations);
   RgbImage Resized(const devices::Frame& frame) const;
+  /// Collects what a frame of a recording's first pass tells of its light.
+  void ProbeLight(const devices::Frame& last_tracked);
+  /// How the light of a frame differs from the estimated one.
+  FollowedLight FollowedIn(std::int64_t frame_index) const;
 
   CameraModel output_camera_;
   scene::SceneDescription scene_;
   bool hands_in_front_;
+  bool follows_light_;
   std::optional<std::size_t> kept_observations_;
   std::unique_ptr<tracker::Tracker> tracker_;
   std::unique_ptr<MarkerRefiner> refiner_;  // Null if markers are not refined.

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <future>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -75,6 +76,33 @@ const std::vector<Observation>& PathOf(const Pipeline& pipeline) {
   return marker ? pipeline.tracks().TrackOf(*marker) : kNone;
 }
 
+/// Estimates the changes of the light about that of the chosen frames.
+void FollowLight(Pipeline& pipeline, const std::vector<Observation>& path,
+                 const std::vector<std::size_t>& chosen) {
+  std::set<std::int64_t> reference;
+  for (const std::size_t i : chosen) reference.insert(path[i].frame_index);
+  pipeline.renderer().FollowLight(pipeline.MomentOf(path[chosen[chosen.size() / 2]].timestamp_ns),
+                                  reference);
+}
+
+bool LightChanges(Pipeline& pipeline) {
+  const LightFollower* follower = pipeline.renderer().light_follower();
+  return follower != nullptr && follower->changes();
+}
+
+/// The frames with a pose in which no cloud takes the sun. The light of the recording is estimated
+/// from them, as if it were constant.
+std::vector<Observation> PathInFullSun(Pipeline& pipeline) {
+  std::vector<Observation> path = PathOf(pipeline);
+  const std::vector<std::size_t> chosen = LightFrames(path);
+  if (chosen.empty()) return path;
+  FollowLight(pipeline, path, chosen);
+  if (!LightChanges(pipeline)) return path;
+  const std::set<std::int64_t> sunny = pipeline.renderer().light_follower()->FramesInFullSun();
+  std::erase_if(path, [&](const Observation& at) { return !sunny.contains(at.frame_index); });
+  return path;
+}
+
 void AddTimes(const ComposedFrame& composed, StageTimes* times) {
   if (!composed.light) return;
   if (composed.times.light_ms > 1.0) times->Add("light", composed.times.light_ms);
@@ -127,11 +155,12 @@ Result<void> TrackRecording(Pipeline& pipeline, devices::Recording recording,
 
 Result<void> EstimateLight(Pipeline& pipeline, devices::Recording recording,
                            const PassMonitor& monitor) {
-  const std::vector<Observation>& path = PathOf(pipeline);
+  Pass pass(monitor);
+  const std::vector<Observation> path =
+      pass.times().Measure("follow light", [&] { return PathInFullSun(pipeline); });
   const std::vector<std::size_t> chosen = LightFrames(path);
   if (chosen.empty() || !pipeline.renderer().CanMeasureLight()) return {};
   pipeline.MeterLightOn(*pipeline.tracks().ReferenceMarker());
-  Pass pass(monitor);
   const auto count = static_cast<std::int64_t>(chosen.size());
   std::int64_t done = 0;
   for (auto next = chosen.begin(); next != chosen.end();) {
@@ -155,6 +184,10 @@ Result<void> EstimateLight(Pipeline& pipeline, devices::Recording recording,
   PLEINAIR_RETURN_IF_ERROR(pass.Report(done, count));
   pass.times().Measure("estimate light", [&] {
     pipeline.renderer().EstimateLight();
+    return 0;
+  });
+  pass.times().Measure("follow light", [&] {
+    if (LightChanges(pipeline)) FollowLight(pipeline, path, chosen);
     return 0;
   });
   return {};

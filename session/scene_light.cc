@@ -6,6 +6,7 @@
 #include "compositor/photometry/light_filter.h"
 #include "compositor/photometry/sky_fit.h"
 #include "scene/marker_heading.h"
+#include "scene/sun_over_place.h"
 
 namespace pleinair::session {
 
@@ -33,8 +34,30 @@ std::optional<compositor::LightEstimate> SceneLight::Conclude() {
   compositor::LightFilter of_no_other_look;
   compositor::LightEstimate found = estimator_->Estimate(&of_no_other_look);
   estimator_.reset();
+  concluded_ = true;
   if (found.skies.source) skies_ = found.skies;
   return found;
+}
+
+void SceneLight::Probe(ImageView<const std::uint8_t> rgb, const CameraModel& camera,
+                       const Transform<Camera, Marker>& camera_from_marker,
+                       std::int64_t frame_index, std::int64_t timestamp_ns,
+                       const scene::MarkerReflectance& marker_reflectance,
+                       const CameraResponse& response) {
+  if (!follower_) follower_.emplace(solver_->phantoms(), camera, response);
+  follower_->Add(rgb, camera_from_marker, marker_reflectance, frame_index, timestamp_ns);
+}
+
+void SceneLight::Follow(const scene::SceneDescription& scene, UtcTime time,
+                        const std::set<std::int64_t>& reference) {
+  if (!follower_) return;
+  const sky::SunPosition sun = scene::SunOver(scene.place_time, time);
+  compositor::SkyFit sky{compositor::SunlitSky(scene)};
+  if (concluded_) sky = {skies_.source, skies_.scale};
+  if (const auto given = compositor::OverriddenSky(scene, options_.overrides, sun)) sky = *given;
+  const auto day = sky.skies->ForSun(sun.ToSun(), sun.distance_au);
+  follower_->Fit(compositor::ScaledSky(*day, sky.sky_radiance_scale, {1.0, 1.0, 1.0}),
+                 scene::MarkerFromWorld(scene.marker), reference);
 }
 
 void SceneLight::Override(const scene::SceneDescription& scene, const sky::SunPosition& sun,

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <set>
 
 #include "base/camera_model.h"
 #include "base/camera_response.h"
@@ -17,6 +18,7 @@
 #include "scene/marker_reflectance.h"
 #include "scene/scene_description.h"
 #include "session/baked_lighting.h"
+#include "session/light_follower.h"
 #include "session/light_options.h"
 #include "sky/sun/sun_position.h"
 
@@ -40,6 +42,20 @@ class SceneLight {
   /// Estimates the light from the frames added, and uses its skies from now on. Returns nothing if
   /// no frame was added.
   std::optional<compositor::LightEstimate> Conclude();
+
+  /// Adds a frame of the recording's first pass, in order, so that its light can be followed.
+  /// `camera`: the lens of these frames.
+  void Probe(ImageView<const std::uint8_t> rgb, const CameraModel& camera,
+             const Transform<Camera, Marker>& camera_from_marker, std::int64_t frame_index,
+             std::int64_t timestamp_ns, const scene::MarkerReflectance& marker_reflectance,
+             const CameraResponse& response);
+
+  /// Estimates how the light of the probed frames changes about that of the `reference` frames at
+  /// `time`. Before Conclude() the described sun lights the scene, afterwards the estimated light.
+  void Follow(const scene::SceneDescription& scene, UtcTime time,
+              const std::set<std::int64_t>& reference);
+  /// Null if no frame was probed.
+  const LightFollower* follower() const { return follower_ ? &*follower_ : nullptr; }
 
   /// Replaces the skies by those of the user's overrides, and reports this in `measured`. Call
   /// before the first illumination is computed.
@@ -80,8 +96,10 @@ class SceneLight {
   compositor::SkyState skies_;
   std::shared_ptr<const compositor::DaylightCoefficients> coefficients_;
   std::unique_ptr<compositor::LightEstimator> estimator_;  // For the frames so far.
+  bool concluded_ = false;
   std::shared_ptr<const BakedLighting> in_use_;
   bool made_elsewhere_ = false;
+  std::optional<LightFollower> follower_;  // For the frames probed so far.
 };
 
 }  // namespace pleinair::session

@@ -104,6 +104,19 @@ void SceneRenderer::ObserveLight(ImageView<const std::uint8_t> rgb,
   light_->Observe(rgb, camera_, camera_from_marker, time, scene_, marker_reflectance_, response_);
 }
 
+void SceneRenderer::ProbeLight(ImageView<const std::uint8_t> rgb, const CameraModel& camera,
+                               const Transform<Camera, Marker>& camera_from_marker,
+                               std::int64_t frame_index, std::int64_t timestamp_ns,
+                               const scene::MarkerReflectance& marker_reflectance) {
+  if (!light_) return;
+  light_->Probe(rgb, camera, camera_from_marker, frame_index, timestamp_ns, marker_reflectance,
+                response_);
+}
+
+void SceneRenderer::FollowLight(UtcTime time, const std::set<std::int64_t>& reference) {
+  if (light_) light_->Follow(scene_, time, reference);
+}
+
 void SceneRenderer::EstimateLight() {
   if (!light_) return;
   const auto found = light_->Conclude();
@@ -207,13 +220,25 @@ Result<void> SceneRenderer::UpdateLight(UtcTime time) {
 }
 
 void SceneRenderer::UpdateExposureScale(ImageView<const std::uint8_t> rgb,
-                                        const Transform<Camera, Marker>& camera_from_marker) {
+                                        const Transform<Camera, Marker>& camera_from_marker,
+                                        const FollowedLight& followed) {
   if (scene_.exposure_scale) {
     summary_.exposure_scale_source = LightSummary::ExposureScaleSource::kScene;
-    summary_.exposure_scale = *scene_.exposure_scale;
+    summary_.exposure_scale = *scene_.exposure_scale * followed.exposure;
     return;
   }
-  exposure_.Read(rgb, camera_, camera_from_marker, light_->skies().marker_shade, &summary_);
+  exposure_.Read(rgb, camera_, camera_from_marker, light_->skies().marker_shade, followed,
+                 &summary_);
+}
+
+void SceneRenderer::SummarizeLight(const FollowedLight& followed) {
+  const BakedLighting& baked = *light_->in_use();
+  const LinearRgb white = summary_.exposure_scale * std::numbers::inv_pi;
+  const double sine_sun = std::max(0.0, baked.sun.ToSun().xyz.z);
+  summary_.followed = followed;
+  summary_.sun_on_white =
+      baked.daylight.SunNormalIrradiance() * sine_sun * followed.mix.sun * white;
+  summary_.sky_on_white = baked.daylight.SkyHorizontalIrradiance() * followed.mix.sky * white;
 }
 
 Result<void> SceneRenderer::UpdateCameraLook(ImageView<const std::uint8_t> rgb,
@@ -227,15 +252,18 @@ Result<void> SceneRenderer::UpdateCameraLook(ImageView<const std::uint8_t> rgb,
 
 Result<RgbImage> SceneRenderer::Render(ImageView<const std::uint8_t> rgb,
                                        const Transform<Camera, Marker>& camera_from_marker,
-                                       UtcTime time, const compositor::MarkerVisibility& cover) {
+                                       UtcTime time, const compositor::MarkerVisibility& cover,
+                                       const FollowedLight& followed) {
   times_ = {};
   if (!composer_) return CopyImage(rgb);
   auto start = Clock::now();
   PLEINAIR_RETURN_IF_ERROR(UpdateLight(time.PlusSeconds(edited_.later_s)));
+  PLEINAIR_RETURN_IF_ERROR(composer_->SetLightMix(light_->in_use()->meshes, followed.mix));
   times_.light_ms = MillisecondsSince(start);
   start = Clock::now();
-  UpdateExposureScale(rgb, camera_from_marker);
+  UpdateExposureScale(rgb, camera_from_marker, followed);
   PLEINAIR_RETURN_IF_ERROR(UpdateCameraLook(rgb, camera_from_marker));
+  SummarizeLight(followed);
   times_.meter_ms = MillisecondsSince(start);
   start = Clock::now();
   PLEINAIR_ASSIGN_OR_RETURN(RgbImage composed,

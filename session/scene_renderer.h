@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "base/camera_model.h"
@@ -18,6 +19,7 @@
 #include "session/baked_lighting.h"
 #include "session/camera_look_filter.h"
 #include "session/exposure_meter.h"
+#include "session/light_follower.h"
 #include "session/light_options.h"
 #include "session/light_summary.h"
 #include "session/render_times.h"
@@ -56,6 +58,16 @@ class SceneRenderer {
   /// one sun position: that at `time` of the first.
   void ObserveLight(ImageView<const std::uint8_t> rgb,
                     const Transform<Camera, Marker>& camera_from_marker, UtcTime time);
+
+  /// Adds a frame of the recording's first pass, in order, so that its light can be followed.
+  /// `camera`: the lens of these frames.
+  void ProbeLight(ImageView<const std::uint8_t> rgb, const CameraModel& camera,
+                  const Transform<Camera, Marker>& camera_from_marker, std::int64_t frame_index,
+                  std::int64_t timestamp_ns, const scene::MarkerReflectance& marker_reflectance);
+  /// As SceneLight::Follow(), for all further frames.
+  void FollowLight(UtcTime time, const std::set<std::int64_t>& reference);
+  /// Null if no frame was probed.
+  const LightFollower* light_follower() const { return light_ ? light_->follower() : nullptr; }
 
   /// Estimates heading, sun and sky from the added frames, and uses them from now on.
   void EstimateLight();
@@ -96,10 +108,12 @@ class SceneRenderer {
   const std::vector<compositor::PlacedModel>& placed() const { return placed_; }
 
   /// Returns the frame with the virtual objects in the light of `time`. Objects that cover the
-  /// marker, by `cover`, are in front of the virtual objects.
+  /// marker, by `cover`, are in front of the virtual objects. `followed`: how the frame's light
+  /// differs from the estimated one.
   Result<RgbImage> Render(ImageView<const std::uint8_t> rgb,
                           const Transform<Camera, Marker>& camera_from_marker, UtcTime time,
-                          const compositor::MarkerVisibility& cover = {});
+                          const compositor::MarkerVisibility& cover = {},
+                          const FollowedLight& followed = {});
 
   const LightSummary& light() const { return summary_; }
   /// Of the last Render().
@@ -117,10 +131,12 @@ class SceneRenderer {
   Result<void> TakeLight(std::shared_ptr<const BakedLighting> light, bool made_elsewhere);
   void MoveObjects();
   Result<void> UpdateLight(UtcTime time);
+  void SummarizeLight(const FollowedLight& followed);
   Result<void> UpdateCameraLook(ImageView<const std::uint8_t> rgb,
                                 const Transform<Camera, Marker>& camera_from_marker);
   void UpdateExposureScale(ImageView<const std::uint8_t> rgb,
-                           const Transform<Camera, Marker>& camera_from_marker);
+                           const Transform<Camera, Marker>& camera_from_marker,
+                           const FollowedLight& followed);
 
   CameraModel camera_;
   CameraResponse response_;

@@ -34,9 +34,9 @@ bool IsNamedLikeOutput(const fs::path& relative) {
   const std::string folder = relative.parent_path().string();
   const std::string name = relative.filename().string();
   if (folder.empty()) {
-    return name == "composite.mp4" || name == "detections.jsonl" || name == "report.json" ||
-           name == "report.html" || name == "camera.glb" || name == "camera.mcap" ||
-           name == "timelapse.mp4" || name == "timelapse.png";
+    return name == "composite.mp4" || name == "detections.jsonl" || name == "light.csv" ||
+           name == "report.json" || name == "report.html" || name == "camera.glb" ||
+           name == "camera.mcap" || name == "timelapse.mp4" || name == "timelapse.png";
   }
   if (folder == "poses") return relative.extension() == ".tum" || relative.extension() == ".csv";
   if (folder == "colmap") {

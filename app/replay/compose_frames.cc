@@ -1,14 +1,18 @@
 #include "app/replay/compose_frames.h"
 
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <set>
 #include <utility>
+#include <vector>
 
 #include "app/output/composite_writer.h"
+#include "app/output/light_csv.h"
 #include "app/replay/report_frames.h"
 #include "app/terminal/pass_bar.h"
+#include "base/atomic_file.h"
 #include "export/images/image_writer.h"
 #include "export/images/video_writer.h"
 #include "session/recording_passes.h"
@@ -53,6 +57,18 @@ void AddPicture(const devices::Frame& frame, const RgbImage& composed, ReplayRep
        exports::EncodeJpeg(composed.view(), kReportPictureWidth_px, kReportJpegQuality)});
 }
 
+/// Relative error of a frame's sun over sky: that of the recording's light and of the change.
+double ErrorOf(const session::LightSummary& light) {
+  return std::hypot(light.measured.sun_to_sky_error.value_or(0.0), light.followed.log_ratio_error);
+}
+
+Result<void> WriteLight(ReplayState& state) {
+  const std::vector<LightRow>& rows = state.report.light_changes.rows;
+  if (rows.empty()) return {};
+  state.report.files.outputs.emplace_back("light.csv");
+  return WriteFileAtomically(state.folder.staging() / "light.csv", LightCsv(rows));
+}
+
 }  // namespace
 
 Result<void> ComposeFrames(ReplayState& state) {
@@ -60,10 +76,18 @@ Result<void> ComposeFrames(ReplayState& state) {
   PLEINAIR_ASSIGN_OR_RETURN(auto video, OpenVideo(state));
   PLEINAIR_ASSIGN_OR_RETURN(fs::path frames, MakeFrameFolder(state));
   CompositeWriter writer(std::move(frames), std::move(video));
+  std::vector<std::pair<std::int64_t, std::int64_t>> frames_seen;
+  std::vector<LightRow> rows;
   const std::set<std::int64_t> shown = ReportFrames(state.report.path, state.report.film.frames);
   const auto take = [&](const devices::Frame& frame,
                         session::ComposedFrame composed) -> Result<void> {
-    if (composed.light) state.report.light = composed.light;
+    frames_seen.emplace_back(frame.index, frame.timestamp_ns);
+    if (composed.light) {
+      const session::LightSummary& light = *composed.light;
+      rows.push_back({frame.index, frame.timestamp_ns, light.sun_on_white, light.sky_on_white,
+                      ErrorOf(light), light.followed.source});
+      state.report.light = composed.light;
+    }
     if (shown.contains(frame.index)) AddPicture(frame, composed.image, &state.report);
     return writer.Add(frame.index, frame.timestamp_ns, std::move(composed.image));
   };
@@ -72,7 +96,9 @@ Result<void> ComposeFrames(ReplayState& state) {
                                                   {bar.Progress(), &state.times}));
   PLEINAIR_RETURN_IF_ERROR(writer.Finish());
   state.times.Add(writer.times());
-  return {};
+  state.report.light_changes.mode = state.options.light.changes;
+  state.report.light_changes.rows = WithMissingFrames(rows, frames_seen);
+  return WriteLight(state);
 }
 
 }  // namespace pleinair::app

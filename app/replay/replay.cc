@@ -95,7 +95,7 @@ Result<void> WriteReports(ReplayState& state) {
     report.warnings.push_back(CouldNotKeepLight(state.options.light.cache));
   }
   if (report.light) {
-    for (std::string& sentence : LightWarnings(*report.light)) {
+    for (std::string& sentence : LightWarnings(*report.light, report.light_changes.rows)) {
       report.warnings.push_back(std::move(sentence));
     }
   }

@@ -48,6 +48,16 @@ std::string NeverSeen(const ReplayReport& report, const scene::MarkerDescription
   return sentence;
 }
 
+/// True if the frames show sun and sky separately, so that a change of exposure is known to be one.
+bool AreToldApart(const std::vector<LightRow>& rows) {
+  using Source = compositor::FrameLight::Source;
+  const auto is = [](Source source) {
+    return [source](const LightRow& row) { return row.source == source; };
+  };
+  return std::any_of(rows.begin(), rows.end(), is(Source::kSurfaces)) &&
+         std::none_of(rows.begin(), rows.end(), is(Source::kTotalOnly));
+}
+
 }  // namespace
 
 std::vector<std::string> MarkerWarnings(const ReplayReport& report,
@@ -113,7 +123,8 @@ std::vector<std::string> DrawingWarnings(std::optional<int> samples) {
                   *samples, kWanted)};
 }
 
-std::vector<std::string> LightWarnings(const session::LightSummary& summary) {
+std::vector<std::string> LightWarnings(const session::LightSummary& summary,
+                                       const std::vector<LightRow>& rows) {
   const compositor::MeasuredLight& light = summary.measured;
   std::vector<std::string> warnings;
   if (summary.exposure_scale_source == session::LightSummary::ExposureScaleSource::kGuess) {
@@ -121,7 +132,7 @@ std::vector<std::string> LightWarnings(const session::LightSummary& summary) {
         "The exposure could not be estimated from the marker in any frame and is guessed. Set "
         "exposure_gain in the scene if the brightness is wrong.");
   }
-  if (summary.exposure_scale_change > kNoticeableExposureChange) {
+  if (summary.exposure_scale_change > kNoticeableExposureChange && !AreToldApart(rows)) {
     warnings.push_back(
         fmt::format("The marker's brightness changed by a factor of {:.1f}. It is attributed to "
                     "the camera's exposure, and sun and sky are assumed constant: if a cloud "

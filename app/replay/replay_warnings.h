@@ -25,7 +25,8 @@ std::vector<std::string> ModelWarnings(const std::vector<compositor::PlacedModel
 std::vector<std::string> DrawingWarnings(std::optional<int> samples);
 
 /// Warnings about the light estimate: far from the scene description, implausible for the frames,
-/// or missing.
-std::vector<std::string> LightWarnings(const session::LightSummary& summary);
+/// or missing. `rows`: the light of all frames.
+std::vector<std::string> LightWarnings(const session::LightSummary& summary,
+                                       const std::vector<LightRow>& rows = {});
 
 }  // namespace pleinair::app

@@ -6,8 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "app/output/light_csv.h"
 #include "base/stage_times.h"
 #include "scene/scene_description.h"
+#include "session/light_options.h"
 #include "session/light_summary.h"
 #include "session/marker_tracks.h"
 
@@ -42,6 +44,12 @@ struct ReplayedScene {
   std::size_t virtual_objects = 0, phantoms = 0;
 };
 
+/// The light of the frames.
+struct ReplayedLight {
+  session::LightChangeMode mode = session::LightChangeMode::kFollow;
+  std::vector<LightRow> rows;  ///< One per frame; empty if nothing had to be lit.
+};
+
 /// The files that a replay wrote.
 struct ReplayFiles {
   std::string time_lapse;            ///< HTML fragment that shows it; empty without.
@@ -60,6 +68,7 @@ struct ReplayReport {
   /// Trajectory of the reference marker: one entry per frame that observes it.
   std::vector<session::Observation> path;
   std::optional<session::LightSummary> light;  ///< Nothing if nothing had to be lit.
+  ReplayedLight light_changes;
   ReplayFiles files;
   std::vector<std::string> warnings;
   std::vector<StageTimes::Summary> timings;  ///< The last is the total.

@@ -40,6 +40,19 @@ std::string Pictures(const ReplayReport& report) {
   return html;
 }
 
+/// Sun and sky over time, as a white level surface in the open shows them.
+std::string LightPlot(const std::vector<LightRow>& rows) {
+  exports::PlotLine sun{"sun", {}, {}}, sky{"sky", {}, {}};
+  for (const LightRow& row : rows) {
+    const double t_s = static_cast<double>(row.timestamp_ns) * 1e-9;
+    sun.x.push_back(t_s);
+    sun.y.push_back(Luminance(row.sun));
+    sky.x.push_back(t_s);
+    sky.y.push_back(Luminance(row.sky));
+  }
+  return exports::LinePlotSvg("Light on white level ground, display-linear", "", {sun, sky});
+}
+
 /// Camera position, orientation and reprojection error over time; gaps where the marker was not
 /// observed.
 std::string Plots(const ReplayReport& report) {
@@ -238,6 +251,7 @@ std::string ReportHtml(const ReplayReport& report) {
   }
   html += "<h2>Light</h2>\n<div class=\"cards\">\n" + Light(report) + "</div>\n";
   html += report.files.time_lapse;
+  if (!report.light_changes.rows.empty()) html += LightPlot(report.light_changes.rows);
   if (!report.path.empty()) html += "<h2>Camera trajectory</h2>\n" + Plots(report);
   html +=
       "<h2>Time per stage</h2>\n<table><tr><th>stage</th><th>runs</th><th>median, ms</th>"

@@ -1,7 +1,12 @@
 #include "app/replay/report/report_json.h"
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <vector>
+
+#include "base/quantile.h"
 
 namespace pleinair::app {
 namespace {
@@ -109,6 +114,23 @@ Json LightJson(const session::LightSummary& light) {
           {"measured", MeasuredJson(light.measured)}};
 }
 
+/// How the light changes. `sun` of the frames is relative to its median.
+Json ChangesJson(const ReplayedLight& light) {
+  std::vector<double> suns;
+  std::map<std::string, int> sources;
+  for (const LightRow& row : light.rows) {
+    suns.push_back(Luminance(row.sun));
+    ++sources[LightSourceName(row.source)];
+  }
+  if (suns.empty()) return {};
+  const double usual = Median(suns);
+  const auto [least, most] = std::minmax_element(suns.begin(), suns.end());
+  return {{"mode", light.mode == session::LightChangeMode::kFollow ? "follow" : "hold"},
+          {"least_sun", IfKnown(usual > 0.0, *least / usual)},
+          {"most_sun", IfKnown(usual > 0.0, *most / usual)},
+          {"frames_by_source", sources}};
+}
+
 Json PosesJson(const ReplayReport& report) {
   const PoseStatistics s = SummarizeTrajectory(report.path);
   const LostFrames lost = CountLostFrames(report.path, report.film.frames);
@@ -173,6 +195,7 @@ std::string ReportJson(const ReplayReport& report) {
   json["virtual_objects"] = report.scene.virtual_objects;
   json["phantoms"] = report.scene.phantoms;
   json["light"] = report.light ? LightJson(*report.light) : Json();
+  if (report.light) json["light"]["changes"] = ChangesJson(report.light_changes);
   json["video_encoder"] =
       report.files.video_encoder.empty() ? Json() : Json(report.files.video_encoder);
   json["outputs"] = report.files.outputs;

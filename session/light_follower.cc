@@ -1,0 +1,77 @@
+#include "session/light_follower.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/quantile.h"
+
+namespace pleinair::session {
+namespace {
+
+// Logarithm of the sun below its nearly largest value at which a frame still has the full sun.
+constexpr double kFullSun = 0.1;
+// Quantile that stands for the largest value.
+constexpr double kLargest = 0.9;
+
+}  // namespace
+
+void LightFollower::Add(ImageView<const std::uint8_t> rgb, const Transform<Camera, Marker>& pose,
+                        const scene::MarkerReflectance& marker, std::int64_t frame_index,
+                        std::int64_t timestamp_ns) {
+  marker_ = marker;
+  probes_.AddFrame(rgb, pose, marker, frame_index, timestamp_ns);
+}
+
+void LightFollower::Fit(const sky::SkyModel& day, const Mat3& marker_from_world,
+                        const std::set<std::int64_t>& reference) {
+  const auto lights = compositor::LightOn(probes_.probes(), phantoms_, day, marker_from_world);
+  std::vector<std::size_t> indices;
+  const auto& frames = probes_.frames();
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (reference.contains(frames[i].frame_index)) indices.push_back(i);
+  }
+  changes_ = compositor::FitLightChanges(frames, lights, indices);
+  sun_on_marker_ = sky_on_marker_ = {};
+  for (std::size_t i = 0; i < probes_.probes().size(); ++i) {
+    const Vec3 p = probes_.probes()[i].point.xyz;
+    if (2.0 * std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)}) > marker_.board_size_m) {
+      continue;
+    }
+    const auto& light = lights[i];
+    sun_on_marker_ = sun_on_marker_ + light.direct * light.sun_visibility + light.reflected;
+    sky_on_marker_ = sky_on_marker_ + light.sky;
+  }
+}
+
+std::set<std::int64_t> LightFollower::FramesInFullSun() const {
+  std::vector<double> suns;
+  suns.reserve(frames().size());
+  // Relative to the sky, so that the exposure does not matter.
+  for (const auto& frame : frames()) suns.push_back(frame.LogRatio());
+  std::set<std::int64_t> chosen;
+  if (suns.empty()) return chosen;
+  const double full = Quantile(suns, kLargest) - kFullSun;
+  for (const auto& frame : frames()) {
+    if (frame.LogRatio() >= full) chosen.insert(frame.frame_index);
+  }
+  return chosen;
+}
+
+FollowedLight LightFollower::Of(std::int64_t frame_index) const {
+  const auto found = std::lower_bound(
+      frames().begin(), frames().end(), frame_index,
+      [](const auto& frame, std::int64_t index) { return frame.frame_index < index; });
+  FollowedLight light;
+  if (found == frames().end() || found->frame_index != frame_index) return light;
+  light.log_ratio_error = found->log_ratio_error;
+  light.source = found->source;
+  if (!changes_.changes) return light;
+  light.exposure = found->sky;
+  light.mix.sun = found->sun / found->sky;
+  const LinearRgb none{1e-9, 1e-9, 1e-9};  // Without probes on the marker both are 0.
+  light.marker_light = (sun_on_marker_ * found->sun + sky_on_marker_ * found->sky + none) /
+                       (sun_on_marker_ + sky_on_marker_ + none);
+  return light;
+}
+
+}  // namespace pleinair::session

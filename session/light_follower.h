@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <set>
+#include <vector>
+
+#include "base/camera_model.h"
+#include "base/camera_response.h"
+#include "base/frames.h"
+#include "base/image.h"
+#include "base/vector.h"
+#include "compositor/light/light_mix.h"
+#include "compositor/light/phantom_rays.h"
+#include "compositor/photometry/changes/light_changes.h"
+#include "compositor/photometry/changes/light_probes.h"
+#include "scene/marker_reflectance.h"
+#include "sky/sky_model.h"
+
+namespace pleinair::session {
+
+/// How the light of a frame differs from the one that was estimated for the recording.
+struct FollowedLight {
+  compositor::LightMix mix;               ///< Sun relative to sky; the sky's is 1.
+  LinearRgb exposure{1.0, 1.0, 1.0};      ///< Factor on the exposure scale, brightness of the sky.
+  LinearRgb marker_light{1.0, 1.0, 1.0};  ///< Factor on the light that the marker reflects.
+  /// Standard deviation of the logarithm of the mix, and what the mix rests on.
+  double log_ratio_error = 0.0;
+  compositor::FrameLight::Source source = compositor::FrameLight::Source::kHeld;
+};
+
+/// Follows sun and sky through a recording: collects the brightness of surfaces in its first pass,
+/// then estimates the light of each frame.
+class LightFollower {
+ public:
+  /// `camera`: the lens of the recording's frames. `phantoms` must outlive this object.
+  LightFollower(const compositor::PhantomRays& phantoms, const CameraModel& camera,
+                const CameraResponse& response)
+      : phantoms_(phantoms), probes_(phantoms, camera, response) {}
+
+  /// Adds a frame; frames must come in order.
+  void Add(ImageView<const std::uint8_t> rgb, const Transform<Camera, Marker>& pose,
+           const scene::MarkerReflectance& marker, std::int64_t frame_index,
+           std::int64_t timestamp_ns);
+
+  /// Estimates the light of all frames, relative to that of the `reference` frames, whose light is
+  /// `day`. Takes up to a second for a minute of film.
+  void Fit(const sky::SkyModel& day, const Mat3& marker_from_world,
+           const std::set<std::int64_t>& reference);
+
+  /// True if the last fit saw sun over sky change.
+  bool changes() const { return changes_.changes; }
+  /// All frames of the last fit.
+  const std::vector<compositor::FrameLight>& frames() const { return changes_.frames; }
+  /// Frames in which the sun is nearly as strong as in any.
+  std::set<std::int64_t> FramesInFullSun() const;
+  /// The light of a frame by the last fit; a mix of 1 where the recording has one light or the
+  /// frame was not added.
+  FollowedLight Of(std::int64_t frame_index) const;
+
+ private:
+  const compositor::PhantomRays& phantoms_;
+  compositor::LightProbes probes_;
+  scene::MarkerReflectance marker_;
+  compositor::LightChanges changes_;
+  LinearRgb sun_on_marker_, sky_on_marker_;  // Of the last fit's light.
+};
+
+}  // namespace pleinair::session
