@@ -11,8 +11,8 @@ void ExposureMeter::Read(ImageView<const std::uint8_t> rgb, const CameraModel& c
   const auto estimate = meter_ ? meter_->Measure(rgb, camera, camera_from_marker) : std::nullopt;
   if (estimate) {
     filter_.Add(estimate->exposure_scale * marker_shade / followed.marker_light, estimate->error);
-    ++summary->exposure_estimates;
-    summary->dappled_estimates += estimate->dappled ? 1 : 0;
+    ++summary->exposures.estimates;
+    summary->exposures.dappled += estimate->dappled ? 1 : 0;
     summary->marker_sunlit_share = estimate->sunlit_share;
   }
   summary->exposure_scale_source =

@@ -13,6 +13,20 @@ namespace pleinair::session {
 /// Linear light at which the report gives the noise, relative to the brightest: a sunlit grey.
 inline constexpr double kMediumLight = 0.2;
 
+/// Light of a single frame.
+struct FrameLightSummary {
+  /// Display-linear value that a white, level, Lambertian surface in the open has of the sun and of
+  /// the sky.
+  LinearRgb sun_on_white, sky_on_white;
+  FollowedLight followed;  ///< How this frame's light differs from that of the recording.
+};
+
+/// Frames so far.
+struct ExposureCounts {
+  int estimates = 0;  ///< Frames in which the marker gave an exposure estimate.
+  int dappled = 0;    ///< Those in which leaves shade the marker.
+};
+
 /// Light of a frame: sun, sky and exposure.
 struct LightSummary {
   sky::SunPosition sun;
@@ -22,16 +36,12 @@ struct LightSummary {
   enum class ExposureScaleSource { kMarker, kScene, kGuess };
   ExposureScaleSource exposure_scale_source = ExposureScaleSource::kMarker;
   LinearRgb exposure_scale;  ///< Display-linear value per cd/m².
-  /// Display-linear value that a white, level, Lambertian surface in the open has of the sun and of
-  /// the sky.
-  LinearRgb sun_on_white, sky_on_white;
-  FollowedLight followed;  ///< How this frame's light differs from that of the recording.
+  FrameLightSummary frame;
   /// See ExposureFilter::Error(); only for kMarker.
   LinearRgb exposure_scale_error;
   /// See ExposureFilter::Change().
   double exposure_scale_change = 1.0;
-  int exposure_estimates = 0;  ///< Frames in which the marker gave an exposure estimate.
-  int dappled_estimates = 0;   ///< Those in which leaves shade the marker.
+  ExposureCounts exposures;
   /// Share of the marker that the phantoms leave sunlit, at the last estimate.
   double marker_sunlit_share = 0.0;
   /// Blur and noise of the last frames. Empty where they are not matched or cannot be measured.
@@ -41,8 +51,8 @@ struct LightSummary {
 
 /// Share of the exposure estimates in which leaves shade the marker; 0 without any.
 inline double DappledShare(const LightSummary& light) {
-  return light.exposure_estimates > 0
-             ? static_cast<double>(light.dappled_estimates) / light.exposure_estimates
+  return light.exposures.estimates > 0
+             ? static_cast<double>(light.exposures.dappled) / light.exposures.estimates
              : 0.0;
 }
 

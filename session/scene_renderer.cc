@@ -235,10 +235,10 @@ void SceneRenderer::SummarizeLight(const FollowedLight& followed) {
   const BakedLighting& baked = *light_->in_use();
   const LinearRgb white = summary_.exposure_scale * std::numbers::inv_pi;
   const double sine_sun = std::max(0.0, baked.sun.ToSun().xyz.z);
-  summary_.followed = followed;
-  summary_.sun_on_white =
+  summary_.frame.followed = followed;
+  summary_.frame.sun_on_white =
       baked.daylight.SunNormalIrradiance() * sine_sun * followed.mix.sun * white;
-  summary_.sky_on_white = baked.daylight.SkyHorizontalIrradiance() * followed.mix.sky * white;
+  summary_.frame.sky_on_white = baked.daylight.SkyHorizontalIrradiance() * followed.mix.sky * white;
 }
 
 Result<void> SceneRenderer::UpdateCameraLook(ImageView<const std::uint8_t> rgb,

@@ -59,7 +59,8 @@ void AddPicture(const devices::Frame& frame, const RgbImage& composed, ReplayRep
 
 /// Relative error of a frame's sun over sky: that of the recording's light and of the change.
 double ErrorOf(const session::LightSummary& light) {
-  return std::hypot(light.measured.sun_to_sky_error.value_or(0.0), light.followed.log_ratio_error);
+  return std::hypot(light.measured.sun_to_sky_error.value_or(0.0),
+                    light.frame.followed.log_ratio_error);
 }
 
 Result<void> WriteLight(ReplayState& state) {
@@ -84,8 +85,8 @@ Result<void> ComposeFrames(ReplayState& state) {
     frames_seen.emplace_back(frame.index, frame.timestamp_ns);
     if (composed.light) {
       const session::LightSummary& light = *composed.light;
-      rows.push_back({frame.index, frame.timestamp_ns, light.sun_on_white, light.sky_on_white,
-                      ErrorOf(light), light.followed.source});
+      rows.push_back({frame.index, frame.timestamp_ns, light.frame.sun_on_white,
+                      light.frame.sky_on_white, ErrorOf(light), light.frame.followed.source});
       state.report.light = composed.light;
     }
     if (shown.contains(frame.index)) AddPicture(frame, composed.image, &state.report);

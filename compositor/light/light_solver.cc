@@ -83,10 +83,10 @@ LitMesh MakeLitMesh(const PatchScene& scene, const PatchScene::MeshSide& mesh_si
   mesh.uvs = mesh_side.mesh.uvs;
   mesh.indices = mesh_side.mesh.indices;
   mesh.ambient_with = scene.VertexLight(mesh_side, light.irradiance[0]);
-  mesh.reflected_with = scene.VertexLight(mesh_side, light.reflected[0]);
+  mesh.sunlight.reflected_with = scene.VertexLight(mesh_side, light.reflected[0]);
   if (mesh.is_phantom) {
     mesh.ambient_without = scene.VertexLight(mesh_side, light.irradiance[1]);
-    mesh.reflected_without = scene.VertexLight(mesh_side, light.reflected[1]);
+    mesh.sunlight.reflected_without = scene.VertexLight(mesh_side, light.reflected[1]);
   }
   return mesh;
 }
@@ -152,10 +152,10 @@ std::vector<LitMesh> LightSolver::SolveUnderTrees(
   for (LitMesh& mesh : meshes) {
     if (mesh.is_phantom && mesh.indices.size() / 3 <= left) {
       left -= mesh.indices.size() / 3;
-      mesh.sun_visibility.by_triangle =
+      mesh.sunlight.by_triangle =
           ClassifySunVisibility(*scene_->rays, mesh, to_sun, options_.threads);
-      mesh.sun_visibility.to_sun = {static_cast<float>(to_sun.x), static_cast<float>(to_sun.y),
-                                    static_cast<float>(to_sun.z)};
+      mesh.sunlight.to_sun = {static_cast<float>(to_sun.x), static_cast<float>(to_sun.y),
+                              static_cast<float>(to_sun.z)};
     }
   }
   return meshes;

@@ -17,12 +17,15 @@ enum class SunVisibility : std::uint8_t {
   kNone,
 };
 
-/// Sun visibility of a phantom's triangles.
-struct SunVisibilities {
-  /// One entry per triangle. Empty when not computed: very large meshes, light from daylight
-  /// coefficients, or no sun.
+/// Sunlight on a mesh.
+struct MeshSunlight {
+  /// Sun visibility of a phantom's triangles, one entry each. Empty when not computed: very large
+  /// meshes, light from daylight coefficients, or no sun.
   std::vector<SunVisibility> by_triangle;
   std::array<float, 3> to_sun{};  ///< Sun direction of these entries: unit, marker coordinates.
+  /// The part of LitMesh::ambient_with and ambient_without that is reflected sunlight. The rest
+  /// comes from the sky. Empty: none of it.
+  std::vector<std::array<float, 3>> reflected_with, reflected_without;
 };
 
 /// A tessellated surface with the irradiance at its vertices, without direct sunlight. Marker
@@ -48,18 +51,15 @@ struct LitMesh {
   std::vector<std::array<float, 3>> ambient_with;
   /// The same with the phantoms alone. Empty for virtual objects.
   std::vector<std::array<float, 3>> ambient_without;
-  /// The part of ambient_with and ambient_without that is reflected sunlight. The rest comes from
-  /// the sky. Empty: none of it.
-  std::vector<std::array<float, 3>> reflected_with, reflected_without;
   std::vector<std::uint32_t> indices;
-  SunVisibilities sun_visibility;
+  MeshSunlight sunlight;
 
   /// The light of a vertex when sun and sky are `mix` times as strong.
   std::array<float, 3> AmbientWith(std::size_t vertex, const LightMix& mix) const {
-    return Mixed(ambient_with, reflected_with, vertex, mix);
+    return Mixed(ambient_with, sunlight.reflected_with, vertex, mix);
   }
   std::array<float, 3> AmbientWithout(std::size_t vertex, const LightMix& mix) const {
-    return Mixed(ambient_without, reflected_without, vertex, mix);
+    return Mixed(ambient_without, sunlight.reflected_without, vertex, mix);
   }
 
  private:

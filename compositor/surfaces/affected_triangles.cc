@@ -41,8 +41,8 @@ void AffectedTriangles::SetLight(const LitMesh& phantom, const LightMix& mix) {
     ambient_.changes.push_back(
         glm::any(glm::greaterThan(glm::abs(with - without), kNoticeable * without)));
   }
-  sun_visibility_.by_triangle = phantom.sun_visibility.by_triangle;
-  const auto& [x, y, z] = phantom.sun_visibility.to_sun;
+  sun_visibility_.by_triangle = phantom.sunlight.by_triangle;
+  const auto& [x, y, z] = phantom.sunlight.to_sun;
   sun_visibility_.to_sun = {x, y, z};
 }
 

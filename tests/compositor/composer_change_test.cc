@@ -95,12 +95,12 @@ class SunReachOfWallTest : public ::testing::Test {
     Pictures pictures;
     pictures.known = compose(lit);
     for (LitMesh& mesh : lit) {
-      for (SunVisibility& reach : mesh.sun_visibility.by_triangle) {
+      for (SunVisibility& reach : mesh.sunlight.by_triangle) {
         if (reach == SunVisibility::kAll) reach = SunVisibility::kNone;
       }
     }
     pictures.misled = compose(lit);
-    for (LitMesh& mesh : lit) mesh.sun_visibility.by_triangle.clear();
+    for (LitMesh& mesh : lit) mesh.sunlight.by_triangle.clear();
     pictures.looked_up = compose(lit);
     return pictures;
   }

@@ -156,10 +156,10 @@ TEST(LightFollowing, FadesTheSunUnderACloud) {
   ASSERT_EQ(followed.light.size(), static_cast<std::size_t>(kFrames));
   const LightSummary& first = followed.light[0];
   const auto sun = [&](int frame) {
-    return std::exp(MeanLog(followed.light[frame].sun_on_white / first.sun_on_white));
+    return std::exp(MeanLog(followed.light[frame].frame.sun_on_white / first.frame.sun_on_white));
   };
   const auto sky = [&](int frame) {
-    return std::exp(MeanLog(followed.light[frame].sky_on_white / first.sky_on_white));
+    return std::exp(MeanLog(followed.light[frame].frame.sky_on_white / first.frame.sky_on_white));
   };
   for (const int under : {8, 9}) {
     EXPECT_GT(sun(under), 0.03) << under;
@@ -172,8 +172,8 @@ TEST(LightFollowing, FadesTheSunUnderACloud) {
   }
   const Composed held = ComposeFilm(film, LightChangeMode::kHold);
   for (const LightSummary& light : held.light) {
-    EXPECT_NEAR(MeanLog(light.sun_on_white / light.sky_on_white),
-                MeanLog(held.light[0].sun_on_white / held.light[0].sky_on_white), 1e-9)
+    EXPECT_NEAR(MeanLog(light.frame.sun_on_white / light.frame.sky_on_white),
+                MeanLog(held.light[0].frame.sun_on_white / held.light[0].frame.sky_on_white), 1e-9)
         << "one light";
   }
   EXPECT_FALSE(std::equal(held.images[8].data(), held.images[8].data() + held.images[8].size(),

@@ -163,12 +163,12 @@ std::string ExposureScaleCard(const session::LightSummary& light) {
               what + fmt::format("± {:.1f} {:.1f} {:.1f} % from the marker in {} frames, changed "
                                  "by a factor of {:.2f}",
                                  error.r * 100, error.g * 100, error.b * 100,
-                                 light.exposure_estimates, light.exposure_scale_change));
+                                 light.exposures.estimates, light.exposure_scale_change));
 }
 
 /// Whether the sun reaches the marker; empty if the marker gave no exposure estimate.
 std::string MarkerCard(const session::LightSummary& light) {
-  if (light.exposure_estimates == 0) return "";
+  if (light.exposures.estimates == 0) return "";
   std::string figure = fmt::format("{:.0f} % in the sun", light.marker_sunlit_share * 100);
   if (light.marker_sunlit_share <= 0.0) figure = "in shade";
   if (light.marker_sunlit_share >= 1.0) figure = "in the sun";

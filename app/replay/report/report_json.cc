@@ -97,7 +97,7 @@ Json LightJson(const session::LightSummary& light) {
   const bool is_metered =
       light.exposure_scale_source == session::LightSummary::ExposureScaleSource::kMarker;
   // Without a sun, a marker is neither sunlit nor in shadow.
-  const bool may_be_lit = light.exposure_estimates > 0 && light.measured.sun_shines;
+  const bool may_be_lit = light.exposures.estimates > 0 && light.measured.sun_shines;
   return {{"sun_azimuth_deg", Rounded(ToDegrees(light.sun.azimuth))},
           {"sun_elevation_deg", Rounded(ToDegrees(light.sun.elevation))},
           {"sun_elevation_refracted_deg", Rounded(ToDegrees(light.sun.elevation_refracted))},
@@ -107,9 +107,9 @@ Json LightJson(const session::LightSummary& light) {
           {"gain_from", SourceName(light.exposure_scale_source)},
           {"gain_relative_error_rgb", is_metered ? ColorJson(light.exposure_scale_error) : Json()},
           {"gain_change", IfKnown(is_metered, light.exposure_scale_change)},
-          {"gain_readings", light.exposure_estimates},
+          {"gain_readings", light.exposures.estimates},
           {"marker_in_sun", IfKnown(may_be_lit, light.marker_sunlit_share)},
-          {"marker_dappled", IfKnown(light.exposure_estimates > 0, session::DappledShare(light))},
+          {"marker_dappled", IfKnown(light.exposures.estimates > 0, session::DappledShare(light))},
           {"look", light.look ? LookJson(*light.look) : Json()},
           {"measured", MeasuredJson(light.measured)}};
 }

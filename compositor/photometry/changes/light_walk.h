@@ -1,5 +1,7 @@
 #pragma once
 
+// Internal: between .cc files.
+
 #include <Eigen/Core>
 #include <vector>
 

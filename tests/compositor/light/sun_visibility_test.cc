@@ -29,7 +29,7 @@ TEST(SunVisibility, IsAllInTheOpenNoneInAShadowAndSomeOnItsEdge) {
   const UniformDay day({1000, 1000, 1000}, {60e3, 60e3, 60e3}, {0, -1, 1});
   int all = 0, none = 0, some = 0, turned_away = 0;
   for (const LitMesh& mesh : (*solver)->Solve(day, Mat3{})) {
-    ASSERT_EQ(mesh.sun_visibility.by_triangle.size(), mesh.indices.size() / 3);
+    ASSERT_EQ(mesh.sunlight.by_triangle.size(), mesh.indices.size() / 3);
     for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
       double low = 1e9, high = -1e9, level = 0.0, facing = 0.0;
       for (std::size_t k = i; k < i + 3; ++k) {
@@ -39,7 +39,7 @@ TEST(SunVisibility, IsAllInTheOpenNoneInAShadowAndSomeOnItsEdge) {
         level = std::max(level, std::fabs(p.z));
         facing = std::max(facing, Dot(At(mesh.normals[mesh.indices[k]]), {0, -1, 1}));
       }
-      const SunVisibility reach = mesh.sun_visibility.by_triangle[i / 3];
+      const SunVisibility reach = mesh.sunlight.by_triangle[i / 3];
       if (facing <= 0.0) {
         EXPECT_EQ(reach, SunVisibility::kNone) << "turned away";
         ++turned_away;
@@ -70,7 +70,7 @@ TEST(SunVisibility, IsNotKnownOfALightByCoefficients) {
   const std::vector<LitMesh> lit = (*solver)->Relight(coefficients, day, Mat3{});
   ASSERT_FALSE(lit.empty());
   for (const LitMesh& mesh : lit) {
-    EXPECT_TRUE(mesh.sun_visibility.by_triangle.empty()) << "rays would take longer than the light";
+    EXPECT_TRUE(mesh.sunlight.by_triangle.empty()) << "rays would take longer than the light";
   }
 }
 
@@ -81,7 +81,7 @@ TEST(SunVisibility, IsNotAskedUnderAnOvercastSky) {
   const std::vector<LitMesh> lit =
       (*solver)->Solve(UniformDay({1000, 1000, 1000}, {0, 0, 0}, {0, -1, 1}), Mat3{});
   ASSERT_FALSE(lit.empty());
-  for (const LitMesh& mesh : lit) EXPECT_TRUE(mesh.sun_visibility.by_triangle.empty());
+  for (const LitMesh& mesh : lit) EXPECT_TRUE(mesh.sunlight.by_triangle.empty());
 }
 
 TEST(SunVisibility, SeesAStripOfShadeAQuarterOfATriangleWideWhereverItFalls) {

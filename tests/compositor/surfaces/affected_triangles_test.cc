@@ -69,9 +69,9 @@ TEST(AffectedTriangles, InTheirOwnShadeNeedNoShadowMaps) {
 TEST(AffectedTriangles, NeedNoShadowMapsWhereItIsKnownWhatPhantomsLeaveOfTheSun) {
   LitMesh mesh = Row();
   for (auto& light : mesh.ambient_with) light[0] = 900.0F;
-  mesh.sun_visibility.to_sun = {0.0F, 0.0F, 1.0F};
-  mesh.sun_visibility.by_triangle = {SunVisibility::kAll, SunVisibility::kNone,
-                                     SunVisibility::kNone, SunVisibility::kSome};
+  mesh.sunlight.to_sun = {0.0F, 0.0F, 1.0F};
+  mesh.sunlight.by_triangle = {SunVisibility::kAll, SunVisibility::kNone, SunVisibility::kNone,
+                               SunVisibility::kSome};
   AffectedTriangles triangles(mesh);
   triangles.Sort(kWindow, {}, kSun);
   EXPECT_THAT(triangles.ends(), ElementsAre(3, 6, 12, 12)) << "objects may shade the second";
@@ -80,7 +80,7 @@ TEST(AffectedTriangles, NeedNoShadowMapsWhereItIsKnownWhatPhantomsLeaveOfTheSun)
   later.to_sun = {0.0F, 0.004F, 1.0F};
   triangles.Sort(later, {}, kSun);
   EXPECT_THAT(triangles.ends(), ElementsAre(3, 12, 12, 12)) << "the sun has moved on";
-  mesh.sun_visibility.by_triangle.clear();
+  mesh.sunlight.by_triangle.clear();
   triangles.SetLight(mesh);
   triangles.Sort(kWindow, {}, kSun);
   EXPECT_THAT(triangles.ends(), ElementsAre(3, 12, 12, 12)) << "not known of another light";
@@ -89,9 +89,9 @@ TEST(AffectedTriangles, NeedNoShadowMapsWhereItIsKnownWhatPhantomsLeaveOfTheSun)
 TEST(AffectedTriangles, KnowTheRatioWherePhantomsLeaveAllOfTheSunOrNone) {
   LitMesh mesh = Row();
   for (auto& light : mesh.ambient_with) light = {900.0F, 800.0F, 700.0F};
-  mesh.sun_visibility.to_sun = {0.0F, 0.0F, 1.0F};
-  mesh.sun_visibility.by_triangle = {SunVisibility::kAll, SunVisibility::kNone,
-                                     SunVisibility::kNone, SunVisibility::kSome};
+  mesh.sunlight.to_sun = {0.0F, 0.0F, 1.0F};
+  mesh.sunlight.by_triangle = {SunVisibility::kAll, SunVisibility::kNone, SunVisibility::kNone,
+                               SunVisibility::kSome};
   AffectedTriangles triangles(mesh);
   triangles.Sort(kWindow, {}, kSun);
   ASSERT_EQ(triangles.linear_ratios().size(), 2U) << "the first and the third";

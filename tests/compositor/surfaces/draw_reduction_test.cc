@@ -43,9 +43,9 @@ class Scene {
     reduction_.Use(reductions);
     LitMesh phantom = Row(4, 0.0F);
     for (std::size_t i = 3; i < 9; ++i) phantom.ambient_with[i] = {900.0F, 900.0F, 900.0F};
-    phantom.sun_visibility.to_sun = {0.0F, 0.0F, 1.0F};
-    phantom.sun_visibility.by_triangle = {SunVisibility::kSome, SunVisibility::kAll,
-                                          SunVisibility::kSome, SunVisibility::kSome};
+    phantom.sunlight.to_sun = {0.0F, 0.0F, 1.0F};
+    phantom.sunlight.by_triangle = {SunVisibility::kSome, SunVisibility::kAll, SunVisibility::kSome,
+                                    SunVisibility::kSome};
     reduction_.AddPhantom(phantom);
     LitMesh object = Row(2, 1.0F);
     object.positions[3] = object.positions[4] = object.positions[5] = object.positions[0];

@@ -113,8 +113,8 @@ session::LightSummary MeasuredSummary() {
   light.exposure_scale = {3e-5, 2.5e-5, 2e-5};
   light.exposure_scale_error = {0.011, 0.022, 0.033};
   light.exposure_scale_change = 1.25;
-  light.exposure_estimates = 40;
-  light.dappled_estimates = 10;
+  light.exposures.estimates = 40;
+  light.exposures.dappled = 10;
   light.marker_sunlit_share = 0.625;
   light.measured.sun_source = light.measured.heading_source = Source::kMeasured;
   light.measured.sun_to_sky = 4.55;
@@ -223,7 +223,7 @@ TEST(ReportLight, ClaimsNoCertaintyOfWhatIsOnlySaid) {
 
 TEST(ReportLight, ReportsWhoGaveTheExposure) {
   session::LightSummary light = MeasuredSummary();
-  light.exposure_estimates = light.dappled_estimates = 0;
+  light.exposures.estimates = light.exposures.dappled = 0;
   for (const auto& [source, name, words] :
        {std::tuple{session::LightSummary::ExposureScaleSource::kScene, "scene", "from the scene"},
         std::tuple{session::LightSummary::ExposureScaleSource::kGuess, "guess", "guessed"}}) {
