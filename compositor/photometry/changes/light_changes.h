@@ -48,7 +48,7 @@ struct LightChanges {
 /// steps, and channels change nearly alike. `reference` are indices of frames in which a and b are
 /// 1 in the mean; they resolve the gauge of ρ.
 ///
-/// Deviation from Hufnagel & Held's survey, which has no such estimate: ours.
+/// The model is ours; the steps of the walk follow Lange, Little & Taylor 1989 (light_walk.h).
 LightChanges FitLightChanges(const std::vector<ProbedFrame>& frames,
                              const std::vector<ProbeLight>& light,
                              const std::vector<std::size_t>& reference);

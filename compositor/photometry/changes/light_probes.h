@@ -30,7 +30,7 @@ struct ProbedFrame {
 };
 
 /// Follows probes through the frames of a recording: about a thousand per frame on the phantoms and
-/// on the marker's white. Costs about two milliseconds a frame.
+/// on the marker's white.
 class LightProbes {
  public:
   /// `phantoms` must outlive this object.
