@@ -1,5 +1,7 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <array>
 #include <cmath>
 #include <memory>
@@ -7,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "compositor/light/light_solver.h"
 #include "compositor/light/lit_mesh.h"
 #include "compositor/models/model.h"
 #include "compositor/models/placed_model.h"
@@ -111,6 +114,13 @@ inline FoundVertex Nearest(const std::vector<LitMesh>& meshes, Vec3 point, Vec3 
     }
   }
   return found;
+}
+
+inline std::unique_ptr<LightSolver> MakeSolver(const std::vector<PlacedModel>& scene,
+                                               LightSolverOptions options = {}) {
+  auto solver = LightSolver::Create(scene, options);
+  EXPECT_TRUE(solver) << solver.error().Message();
+  return solver ? *std::move(solver) : nullptr;
 }
 
 }  // namespace pleinair::compositor::testing
