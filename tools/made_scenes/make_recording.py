@@ -15,14 +15,16 @@ import numpy as np
 from mathutils import Matrix
 
 import daylight
+import film as films
 import pictures
 import recording_files as files
+import shapes
 import surfaces
+from camera import CURVES, Camera
 from objects import SMOOTH
 from places import PLACES
 
 REPOSITORY = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
-FRAMES_PER_S = 10
 SENSOR_MM = 36.0
 
 
@@ -32,6 +34,7 @@ def asked():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("-o", "--out", required=True)
     parser.add_argument("--frames", type=int, default=4)
+    parser.add_argument("--frames-per-s", type=float, default=10.0)
     parser.add_argument("--key-frames", type=int, nargs="*", default=[1])
     parser.add_argument("--size", type=int, nargs=2, default=[480, 360])
     parser.add_argument(
@@ -42,6 +45,12 @@ def asked():
         "--marker-of",
         help="recording whose marker.png is printed (of the bundled two: by the seed)",
     )
+    parser.add_argument("--cloud", action="store_true", help="a cloud crosses the sun")
+    parser.add_argument("--exposure", choices=films.EXPOSURES, default="locked")
+    parser.add_argument("--white-balance-drifts", action="store_true")
+    parser.add_argument("--curve", choices=sorted(CURVES), default="srgb", help="of the camera")
+    parser.add_argument("--grain", type=float, default=0.0, help="codes of 255, at mid grey")
+    parser.add_argument("--sharpening", type=float, default=0.0, help="share of detail added")
     return parser.parse_args(sys.argv[sys.argv.index("--") + 1 :])
 
 
@@ -97,21 +106,52 @@ def touched(place, pose, size):
 
 def write_models(out, place, virtual):
     stand_ins = [s for s in place.surfaces if s.phantom is not None]
-    parts = [(s.name, s.pattern.name, s.phantom) for s in stand_ins]
+    of_marker = lambda mesh: shapes.Mesh(mesh.points @ place.marker_from_level.T, mesh.faces)
+    parts = [(s.name, s.pattern.name, of_marker(s.phantom)) for s in stand_ins]
     files.write_obj(f"{out}/phantom.obj", "phantom.mtl", parts)
     albedos = {s.pattern.name: s.pattern.mean_albedo for s in stand_ins}
     files.write_mtl(f"{out}/phantom.mtl", albedos)
-    normals = [v.normal for v in virtual.data.vertices] if place.kind in SMOOTH else None
-    files.write_obj(f"{out}/object.obj", "object.mtl", [("virtual", "object", place.mesh)], normals)
+    normals = None
+    if place.kind in SMOOTH:
+        normals = np.array([v.normal for v in virtual.data.vertices]) @ place.marker_from_level.T
+    parts = [("virtual", "object", of_marker(place.mesh))]
+    files.write_obj(f"{out}/object.obj", "object.mtl", parts, normals)
     files.write_mtl(f"{out}/object.mtl", {"object": place.albedo})
 
 
-def key_frame(out, frame, background, truth, mask, gain):
-    """Writes a key frame's pictures; what scene.json says of them."""
+def the_film(options, place, sun_level, sky_level):
+    """Its random numbers are its own, so that the place is the same without a cloud."""
+    random = np.random.default_rng([options.seed, 7])
+    film = films.steady(options.frames)
+    if options.cloud:
+        films.under_cloud(random, film, options.frames_per_s)
+    films.exposed(film, options.exposure, sun_level, sky_level, options.frames_per_s)
+    if options.white_balance_drifts:
+        films.drifting_white_balance(random, film)
+    return film
+
+
+class Shots:
+    """Linear pictures of the place in the light of a frame. With a film whose sun and sky change
+    apart, both are rendered apart and weighed."""
+
+    def __init__(self, film):
+        self.film = film
+        self.apart = bool(np.ptp(film.sun) > 0 or np.ptp(film.sky) > 0)
+
+    def __call__(self, frame, samples, seed, within=None):
+        if not self.apart:
+            return pictures.rendered(samples, seed, within)
+        sun, sky = pictures.rendered_apart(samples, seed, within)
+        return sun * self.film.sun[frame] + sky * self.film.sky[frame]
+
+
+def key_frame(out, frame, background, truth, mask, camera):
+    """Writes a key frame's pictures, without grain; what scene.json says of them."""
     shadow = pictures.darkened(truth, background, mask)
     stem = f"key/{frame:04d}_"
-    cv2.imwrite(f"{out}/{stem}background.png", pictures.encoded(background * gain))
-    cv2.imwrite(f"{out}/{stem}truth.png", pictures.encoded(truth * gain))
+    cv2.imwrite(f"{out}/{stem}background.png", camera.developed(background))
+    cv2.imwrite(f"{out}/{stem}truth.png", camera.developed(truth))
     cv2.imwrite(f"{out}/{stem}objmask.png", mask)
     cv2.imwrite(f"{out}/{stem}shadow.png", shadow)
     said = {"frame": frame, "background": stem + "background.png", "truth": stem + "truth.png"}
@@ -134,38 +174,51 @@ def main():
     for surface in place.surfaces:
         surfaces.add_surface(surface)
     marker_picture, marker = the_marker(options)
-    surfaces.add_marker(marker_picture, place.square_m / marker["edge_fraction"])
+    board_m = place.square_m / marker["edge_fraction"]
+    surfaces.add_marker(marker_picture, board_m, place.marker_from_level.T)
     virtual = surfaces.add_mesh(
         "virtual", place.mesh, surfaces.diffuse("object", place.albedo), smooth=place.kind in SMOOTH
     )
     stand = set_camera(place, options.size)
 
-    level = level_sky + sun * place.to_sun[2]
-    gain = place.cast * place.brightness * np.pi / (surfaces.PAPER * level)
+    sun_level = sun * place.to_sun[2]
+    gain = place.cast * place.brightness * np.pi / (surfaces.PAPER * (level_sky + sun_level))
+    film = the_film(options, place, sun_level, level_sky)
+    shot = Shots(film)
+    camera = Camera(options.curve, options.grain, options.sharpening)
+    grain = np.random.default_rng([options.seed, 8])
     poses = [files.marker_to_camera(*view) for view in place.views]
     key_frames = []
     for frame, pose in enumerate(poses):
         stand_at(stand, pose)
         is_key = frame in options.key_frames
+        exposed = gain * film.gain[frame]
         virtual.hide_render = True
-        background = pictures.rendered(options.samples, frame)
+        background = shot(frame, options.samples, frame)
         within = touched(place, pose, options.size)
         if is_key:
-            background = pictures.with_part(background, options.key_samples, frame, within)
-        pictures.write_jpeg(f"{out}/frames/{frame:04d}.jpg", pictures.encoded(background * gain))
+            fine = shot(frame, options.key_samples, frame, within)
+            background = pictures.with_part(background, fine)
+        pictures.write_jpeg(
+            f"{out}/frames/{frame:04d}.jpg", camera.developed(background * exposed, grain)
+        )
         if is_key:
             virtual.hide_render = False
-            truth = pictures.with_part(background, options.key_samples, frame, within)
+            fine = shot(frame, options.key_samples, frame, within)
+            truth = pictures.with_part(background, fine)
             mask = pictures.object_mask(virtual, within)
-            key_frames.append(key_frame(out, frame, background, truth, mask, gain))
+            key_frames.append(
+                key_frame(out, frame, background * exposed, truth * exposed, mask, camera)
+            )
 
     cv2.imwrite(f"{out}/sky_truth.exr", (sky * gain)[..., ::-1].astype(np.float32))
     cv2.imwrite(f"{out}/marker.png", cv2.imread(marker_picture))
     write_models(out, place, virtual)
-    files.write_truth(f"{out}/truth.tum", poses, FRAMES_PER_S)
-    footage = files.Footage(tuple(options.size), FRAMES_PER_S, poses)
+    poses = [files.of_marker(pose, place) for pose in poses]
+    files.write_truth(f"{out}/truth.tum", poses, options.frames_per_s)
+    footage = files.Footage(tuple(options.size), options.frames_per_s, poses)
     files.write_recording(f"{out}/recording.json", place, footage)
-    light = files.Light(sun * gain, level_sky * gain, gain, scale)
+    light = files.Light(sun * gain, level_sky * gain, gain, scale, film, camera)
     files.write_scene(f"{out}/scene.json", place, footage, marker, light, key_frames)
 
 

@@ -40,17 +40,26 @@ def rendered(samples, seed, within=None):
         return cv2.imread(scene.render.filepath, cv2.IMREAD_UNCHANGED)[..., ::-1].astype(np.float64)
 
 
-def with_part(picture, samples, seed, within):
-    """`picture` with the part `within` rendered anew."""
-    part = rendered(samples, seed, within)
+def rendered_apart(samples, seed, within=None):
+    """(sun, sky): as rendered(), once by the lamps alone and once by the world alone."""
+    lamps = [o for o in bpy.data.objects if o.type == "LIGHT"]
+    nodes = bpy.context.scene.world.node_tree.nodes
+    world = next(n for n in nodes if n.type == "BACKGROUND").inputs["Strength"]
+    strength = world.default_value
+    world.default_value = 0.0
+    sun = rendered(samples, seed, within)
+    world.default_value = strength
+    for lamp in lamps:
+        lamp.hide_render = True
+    sky = rendered(samples, seed, within)
+    for lamp in lamps:
+        lamp.hide_render = False
+    return sun, sky
+
+
+def with_part(picture, part):
+    """`picture` where `part` is black, else `part`."""
     return np.where(part.max(axis=2, keepdims=True) > 0, part, picture)
-
-
-def encoded(linear):
-    """8 bit sRGB (IEC 61966-2-1), clipped, as OpenCV wants it: b g r."""
-    x = np.clip(linear, 0, 1)
-    curve = np.where(x <= 0.0031308, 12.92 * x, 1.055 * x ** (1 / 2.4) - 0.055)
-    return (curve * 255 + 0.5).astype(np.uint8)[..., ::-1].copy()
 
 
 def write_jpeg(path, picture):

@@ -54,6 +54,12 @@ class Place:
     views: list = field(default_factory=list)  # (eye, target) a frame
     cast: np.ndarray = None  # The camera's gain beside a neutral one, r g b
     brightness: float = 0.9  # What open level white paper would show, display-linear
+    upright: bool = False  # The marker hangs on a wall that faces -y.
+
+    @property
+    def marker_from_level(self):
+        """Rotation from the frame that everything here is built in (z up) to the marker's."""
+        return np.array([[1, 0, 0], [0, 0, 1], [0, -1, 0]] if self.upright else np.eye(3), float)
 
     @property
     def sun_deg(self):
@@ -89,8 +95,9 @@ def begun(random, name, days, heights_deg, sky, ground_z, square_m, before_noon=
     return Place(name, latitude, longitude, utc, heading, sky, ground_z, square_m, []), side
 
 
-def finish(random, place, frames, spot, height_m, distance_m, size):
-    """Object, camera path and colours of the camera."""
+def finish(random, place, frames, spot, height_m, distance_m, size, lift_deg=(24, 38), aim=None):
+    """Object, camera path and colours of the camera. `lift_deg`: range of the camera's elevation.
+    `aim`: what it looks at; by default between marker and object."""
     place.kind, place.mesh, place.albedo = virtual_object(random, height_m, (*spot, place.ground_z))
     place.focal_px = round(size[0] * random.uniform(0.88, 1.15), 1)
     place.centre_px = tuple(
@@ -100,8 +107,8 @@ def finish(random, place, frames, spot, height_m, distance_m, size):
     shadow = -sun[:2] / sun[2] * height_m if place.sky.sun_to_sky > 0 else np.zeros(2)
     shadow *= min(1.0, height_m / max(np.linalg.norm(shadow), 1e-9))
     x, y = 0.5 * np.array(spot) + 0.25 * shadow
-    target = np.array([x, y + 0.1 * distance_m, height_m * 0.25])
-    turn, lift = random.uniform(-0.5, 0.5), math.radians(random.uniform(24, 38))
+    target = np.array([x, y + 0.1 * distance_m, height_m * 0.25] if aim is None else aim)
+    turn, lift = random.uniform(-0.5, 0.5), math.radians(random.uniform(*lift_deg))
     sweep = random.choice([-1.0, 1.0]) * 0.12 / max(frames - 1, 1)
     for frame in range(frames):
         a = turn + sweep * frame
@@ -296,5 +303,122 @@ def square(random, frames, size):
     return finish(random, place, frames, tuple(spot), height, distance, size)
 
 
+def canyon(random, frames, size):
+    """A street between two rows of tall houses that hide most of the sky. A low sun reaches marker
+    and object through a gap; one row is sunlit and reflects."""
+    sky = Sky("nishita", random.uniform(2.0, 4.5), random.uniform(1.0, 3.0))
+    sky.words = str(random.choice(["", "clear"]))
+    place, side = begun(random, "canyon", ((40, 56), (4, 9)), (22, 38), sky, -0.004, 0.45)
+    z, sun = place.ground_z, place.to_sun
+    grey = random.uniform(0.2, 0.32) * np.array([1, 0.97, 0.92])
+    slabs = patterns.masonry(
+        "slabs", random, grey, (0.12, 0.11, 0.1), 4, 4, 1.6, 0.01, 0.5, 0.08
+    )
+    warm = random.uniform(0.45, 0.6) * np.array([1.0, 0.84, 0.62])
+    facade = patterns.masonry(
+        "facade", random, warm, (0.35, 0.32, 0.28), 3, 8, 1.8, 0.012, 0.5, 0.06
+    )
+    brick = patterns.masonry(
+        "brick", random, (0.34, 0.13, 0.09), (0.4, 0.38, 0.34), 4, 14, 1.0, 0.01, 0.5, 0.12
+    )
+    metal = patterns.flat("metal", (0.2, 0.21, 0.23))
+    stone = patterns.plain("stone", random, (0.45, 0.42, 0.36), 1.0, 0.08)
+    half = random.uniform(3.2, 4.5)  # Half of the street's width; it runs along y.
+    sunny = float(np.sign(sun[0]))  # The row on this side stands towards the sun.
+    # The gap lies where the sun's rays through the middle of the scene cross that row.
+    way = half / max(abs(sun[0]), 0.2)
+    gap, width = sun[1] * way, random.uniform(4.0, 5.5)
+    tall = random.uniform(9.0, 14.0)
+    row = shapes.joined(
+        [
+            shapes.box(5.0, 40.0, tall).moved((sunny * (half + 2.5), gap + width / 2 + 20.0, z)),
+            shapes.box(5.0, 40.0, tall * 0.8).moved((sunny * (half + 2.5), gap - width / 2 - 20.0, z)),
+        ]
+    )
+    across = shapes.box(5.0, 80.0, tall * 0.9).moved((-sunny * (half + 2.5), 0.0, z))
+    bollard = shapes.cylinder(0.07, 0.9, 24).moved((side * random.uniform(0.8, 1.1), 1.1, z))
+    kerb = shapes.box(0.3, 8.0, 0.15).moved((-sunny * (half - 1.2), 0.0, z))
+    dark = patterns.plain("asphalt", random, (0.1, 0.1, 0.1), 2.0)
+    place.surfaces = ground(place, slabs, 12.0, dark) + [
+        solid("row", row, brick),
+        solid("across", across, facade),
+        solid("bollard", bollard, metal),
+        solid("kerb", kerb, stone),
+    ]
+    spot = (-side * random.uniform(0.6, 0.8), random.uniform(0.0, 0.3))
+    place.brightness = 1.5  # Exposed for the street, which sees little sky.
+    height, distance = random.uniform(0.5, 0.85), random.uniform(2.3, 2.8)
+    return finish(random, place, frames, spot, height, distance, size)
+
+
+def snow(random, frames, size):
+    """Snow under a low winter sun: the ground lights everything from below."""
+    sky = Sky("nishita", random.uniform(1.5, 4.0), random.uniform(0.5, 1.5))
+    sky.words = str(random.choice(["", "clear"]))
+    place, side = begun(random, "snow", ((45, 60), (1, 3)), (14, 32), sky, -0.004, 0.45)
+    z = place.ground_z
+    white = random.uniform(0.74, 0.86) * np.array([0.99, 1.0, 1.02])
+    cover = patterns.plain("snow", random, white, 2.0, 0.02, 0.004, 1.4)
+    wood = patterns.boards("wood", random, (0.26, 0.17, 0.1), 6, 0.8)
+    stone = patterns.plain("stone", random, (0.36, 0.34, 0.31), 1.0, 0.09)
+    red = patterns.flat("post", (0.4, 0.04, 0.03))
+    back = random.uniform(1.8, 2.6)
+    fence = shapes.joined(
+        [shapes.box(6.0, 0.04, 0.12).moved((0, 0, h)) for h in (0.3, 0.7)]
+        + [shapes.box(0.1, 0.1, 1.0).moved((x, 0.07, 0)) for x in (-2.0, -0.7, 0.6, 1.9)]
+    )
+    place.surfaces = ground(place, cover, 8.0, cover) + [
+        solid("fence", fence.moved((0, back, z)), wood),
+        solid("post", shapes.cylinder(0.05, 1.1).moved((side * random.uniform(0.7, 1.0), 0.9, z)), red),
+        solid("block", shapes.box(0.6, 0.4, 0.35).turned(0.4).moved((-side * 1.2, 1.0, z)), stone),
+    ]
+    spot = (-side * random.uniform(0.6, 0.8), random.uniform(-0.1, 0.3))
+    height, distance = random.uniform(0.5, 0.85), random.uniform(2.3, 2.8)
+    place.brightness = 0.8
+    return finish(random, place, frames, spot, height, distance, size)
+
+
+def wall(random, frames, size):
+    """The marker hangs on a sunlit wall above paving; the object stands on the paving."""
+    sky = Sky("nishita", random.uniform(2.0, 5.0), random.uniform(0.8, 2.5))
+    sky.words = str(random.choice(["", "clear"]))
+    z = -random.uniform(0.9, 1.2)
+    place, side = begun(random, "wall", ((36, 56), (4, 9)), (25, 50), sky, z, 0.35)
+    place.upright = True
+    # The sun stands before the wall, on either side.
+    azimuth = place.sun_deg[0]
+    place.heading_deg = round((azimuth + 180 + random.uniform(-50, 50)) % 360, 1)
+    pale = random.uniform(0.45, 0.65) * np.array([1, 0.93, 0.8])
+    plaster = patterns.plain("plaster", random, pale, 1.5, 0.05)
+    grey = random.uniform(0.25, 0.38) * np.array([1, 0.96, 0.9])
+    slabs = patterns.masonry(
+        "slabs", random, grey, (0.15, 0.14, 0.12), 4, 4, 1.6, 0.01, 0.5, 0.06
+    )
+    stone = patterns.plain("stone", random, (0.46, 0.42, 0.34), 1.0, 0.09)
+    metal = patterns.flat("metal", (0.2, 0.21, 0.23))
+    behind = shapes.box(9.0, 0.3, 3.2).moved((0, 0.154, z))
+    pole = shapes.cylinder(0.04, 2.4).moved((side * random.uniform(0.9, 1.3), -0.5, z))
+    bench = shapes.box(1.0, 0.35, 0.42).moved((-side * 1.4, -0.25, z))
+    grass = patterns.plain("grassland", random, (0.1, 0.15, 0.05), 3.0, 0.15)
+    place.surfaces = ground(place, slabs, 6.0, grass) + [
+        solid("wall", behind, plaster),
+        solid("bench", bench, stone),
+        solid("pole", pole, metal),
+    ]
+    spot = (side * random.uniform(0.3, 0.5), -random.uniform(0.45, 0.7))
+    height, distance = random.uniform(0.45, 0.7), random.uniform(2.6, 3.1)
+    aim = (spot[0] * 0.4, 0.0, 0.5 * z)
+    return finish(random, place, frames, spot, height, distance, size, (6, 16), aim)
+
+
 # In an order that seeds are made of: further ones follow the last.
-PLACES = {"morning": morning, "park": park, "terrace": terrace, "yard": yard, "square": square}
+PLACES = {
+    "morning": morning,
+    "park": park,
+    "terrace": terrace,
+    "yard": yard,
+    "square": square,
+    "canyon": canyon,
+    "snow": snow,
+    "wall": wall,
+}

@@ -24,6 +24,8 @@ class Light:
     sky: np.ndarray  # on level ground in the open
     gain: np.ndarray
     radiance_scale: float  # of Cycles' sky
+    film: object  # film.Film: factors of all this by frame
+    camera: object  # camera.Camera
 
 
 def write_obj(path, library, parts, normals=None):
@@ -61,6 +63,19 @@ def marker_to_camera(eye, target):
     right /= np.linalg.norm(right)
     turn = np.stack([right, np.cross(forward, right), forward])
     return np.hstack([turn, (-turn @ np.asarray(eye))[:, None]])
+
+
+def of_marker(pose, place):
+    """A pose of the level frame as one of the marker's."""
+    return np.hstack([pose[:, :3] @ place.marker_from_level.T, pose[:, 3:]])
+
+
+def _by_frame(light):
+    """Factors of sun, sky and gain, a frame each; nothing where none changes."""
+    film = light.film
+    if all(np.ptp(x) == 0 for x in (film.sun, film.sky, film.gain)):
+        return None
+    return {key: getattr(film, key).round(6).tolist() for key in ("sun", "sky", "gain")}
 
 
 def _quaternion(turn):
@@ -114,6 +129,7 @@ def write_recording(path, place, footage):
 def write_scene(path, place, footage, marker, light, key_frames):
     """`marker`: what, edge_fraction."""
     azimuth, elevation = place.sun_deg
+    turned = lambda v: list(place.marker_from_level @ np.asarray(v))
     board = place.square_m / marker["edge_fraction"]
     corners = [(-1, 1), (1, 1), (1, -1), (-1, -1)]
     about = {
@@ -126,7 +142,7 @@ def write_scene(path, place, footage, marker, light, key_frames):
             "fps": footage.frames_per_s,
             "frames": "frames/%04d.jpg",
             "frame_count": len(footage.poses),
-            "encoding": "8 bit sRGB, JPEG q95 4:2:0; key/*.png losslessly",
+            "encoding": f"8 bit {light.camera.curve}, JPEG q95 4:2:0; key/*.png losslessly",
         },
         "intrinsics": intrinsics(place),
         "marker": {
@@ -148,10 +164,10 @@ def write_scene(path, place, footage, marker, light, key_frames):
             "utc": place.utc,
         },
         "directions_in_marker_frame": {
-            "up": [0.0, 0.0, 1.0],
-            "north": in_marker_frame(0.0, 0.0, place.heading_deg),
-            "east": in_marker_frame(90.0, 0.0, place.heading_deg),
-            "to_sun": list(place.to_sun),
+            "up": turned([0.0, 0.0, 1.0]),
+            "north": turned(in_marker_frame(0.0, 0.0, place.heading_deg)),
+            "east": turned(in_marker_frame(90.0, 0.0, place.heading_deg)),
+            "to_sun": turned(place.to_sun),
         },
         "sun": {
             "azimuth_deg": azimuth,
@@ -165,8 +181,13 @@ def write_scene(path, place, footage, marker, light, key_frames):
             "sky_map": "sky_truth.exr",
             "dust_density": place.sky.dust,
             "radiance_scale": light.radiance_scale,
+            "factors_by_frame": _by_frame(light),
         },
-        "exposure": {"gain_rgb": list(light.gain), "constant_over_sequence": True},
+        "exposure": {
+            "gain_rgb": list(light.gain),
+            "constant_over_sequence": bool(np.ptp(light.film.gain) == 0),
+        },
+        "camera": vars(light.camera),
         "virtual_object": {
             "file": "object.obj",
             "kind": place.kind,
@@ -176,6 +197,9 @@ def write_scene(path, place, footage, marker, light, key_frames):
         "key_frames": key_frames,
         "poses_marker_to_camera": [pose.tolist() for pose in footage.poses],
     }
+    if place.upright:
+        about["marker"]["upright"] = True
+        del about["marker"]["face_height_above_ground_m"]
     if place.sky.words:
         about["sky"] = {"condition": place.sky.words}
     with open(path, "w") as file:

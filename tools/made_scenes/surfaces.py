@@ -99,11 +99,12 @@ def add_surface(surface):
     return add_mesh(surface.name, surface.mesh, material, pattern.side_m)
 
 
-def add_marker(path, board_m):
-    """The printed sheet: level, face up, its centre the origin."""
+def add_marker(path, board_m, level_from_marker):
+    """The printed sheet in its own x-y plane, its centre the origin."""
     grey = cv2.imread(path, cv2.IMREAD_COLOR)[..., ::-1] / 255.0
     linear = np.where(grey <= 0.04045, grey / 12.92, ((grey + 0.055) / 1.055) ** 2.4)
     sheet = rectangle(-board_m / 2, -board_m / 2, board_m / 2, board_m / 2, 0.0)
+    sheet.points = sheet.points @ level_from_marker.T
     thing = add_mesh("marker", sheet, diffuse("marker", INK + (PAPER - INK) * linear))
     uv = thing.data.uv_layers.new()
     for corner, place in enumerate(((0, 0), (1, 0), (1, 1), (0, 1))):
