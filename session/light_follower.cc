@@ -30,7 +30,7 @@ void LightFollower::Fit(const sky::SkyModel& day, const Mat3& marker_from_world,
   for (std::size_t i = 0; i < frames.size(); ++i) {
     if (reference.contains(frames[i].frame_index)) indices.push_back(i);
   }
-  changes_ = compositor::FitLightChanges(frames, lights, indices);
+  changes_ = compositor::FitLightChanges(frames, probes_.probes(), lights, indices);
   sun_on_marker_ = sky_on_marker_ = {};
   for (std::size_t i = 0; i < probes_.probes().size(); ++i) {
     const Vec3 p = probes_.probes()[i].point.xyz;

@@ -50,6 +50,7 @@ struct LightChanges {
 ///
 /// The model is ours; the steps of the walk follow Lange, Little & Taylor 1989 (light_walk.h).
 LightChanges FitLightChanges(const std::vector<ProbedFrame>& frames,
+                             const std::vector<LightProbe>& probes,
                              const std::vector<ProbeLight>& light,
                              const std::vector<std::size_t>& reference);
 

@@ -13,7 +13,7 @@ namespace pleinair::compositor {
 namespace {
 
 // Probes per frame, and at most in a recording: their noise is far below that of the model.
-constexpr double kProbesPerFrame = 900.0;
+constexpr double kProbesPerFrame = 450.0;
 constexpr std::size_t kMaxProbes = 4000;
 // Pixel values beyond which a value is clipped or mostly noise.
 constexpr int kClippedCode = 250, kDarkCode = 5;
@@ -30,8 +30,8 @@ constexpr double kNormalSteps = 8.0;
 }  // namespace
 
 LightProbes::LightProbes(const PhantomRays& phantoms, const CameraModel& camera,
-                         const CameraResponse& response)
-    : phantoms_(phantoms), camera_(camera), response_(response) {}
+                         const CameraResponse& response, std::size_t max_readings)
+    : phantoms_(phantoms), camera_(camera), response_(response), max_readings_(max_readings) {}
 
 void LightProbes::AddMarker(const scene::MarkerReflectance& marker) {
   // The middle of the white margin, or of the quiet zone.
@@ -58,6 +58,9 @@ bool LightProbes::Observe(ImageView<const std::uint8_t> rgb, const Transform<Cam
   const double distance = Norm(to_eye);
   if (in_camera.xyz.z <= 0.0 || Dot(normal, to_eye) < kGrazing * distance) return false;
   *pixel = ProjectToPixel(camera_, in_camera);
+  if (!Keeps(probe, frames_.size())) {
+    return pixel->x >= 0.0 && pixel->y >= 0.0 && pixel->x < rgb.width() && pixel->y < rgb.height();
+  }
   std::array<double, 3> sum{};
   for (int i = 0; i < 4; ++i) {
     const Vec2 aside{(i & 1) == 0 ? -kReach_px : kReach_px, (i & 2) == 0 ? -kReach_px : kReach_px};
@@ -109,7 +112,26 @@ void LightProbes::AddFrame(ImageView<const std::uint8_t> rgb, const Transform<Ca
     Vec2 pixel;
     Observe(rgb, pose, static_cast<std::uint32_t>(probes_.size() - 1), &pixel, &frame);
   }
+  readings_ += frame.probes.size();
   frames_.push_back(std::move(frame));
+  if (readings_ > max_readings_) ThinOut();
+}
+
+void LightProbes::ThinOut() {
+  thinning_ *= 2;
+  readings_ = 0;
+  for (std::size_t t = 0; t < frames_.size(); ++t) {
+    ProbedFrame& frame = frames_[t];
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < frame.probes.size(); ++k) {
+      if (!Keeps(frame.probes[k], t)) continue;
+      frame.probes[kept] = frame.probes[k];
+      frame.linear[kept++] = frame.linear[k];
+    }
+    frame.probes.resize(kept);
+    frame.linear.resize(kept);
+    readings_ += kept;
+  }
 }
 
 std::vector<ProbeLight> LightOn(const std::vector<LightProbe>& probes, const PhantomRays& phantoms,

@@ -29,13 +29,15 @@ struct ProbedFrame {
   std::vector<std::array<float, 3>> linear;  ///< Display-linear, per entry of `probes`.
 };
 
-/// Follows probes through the frames of a recording: about a thousand per frame on the phantoms and
-/// on the marker's white.
+/// Follows probes through the frames of a recording: some hundred per frame on the phantoms and on
+/// the marker's white. In long recordings each frame keeps a part of its probes, so that memory is
+/// bounded.
 class LightProbes {
  public:
-  /// `phantoms` must outlive this object.
+  /// `phantoms` must outlive this object. `max_readings` bounds the memory, at about 50 bytes each
+  /// with the fit.
   LightProbes(const PhantomRays& phantoms, const CameraModel& camera,
-              const CameraResponse& response);
+              const CameraResponse& response, std::size_t max_readings = 2'000'000);
 
   /// Adds a frame; new surfaces in view get new probes. Frames must come in order.
   void AddFrame(ImageView<const std::uint8_t> rgb, const Transform<Camera, Marker>& pose,
@@ -46,6 +48,12 @@ class LightProbes {
   const std::vector<ProbedFrame>& frames() const { return frames_; }
 
  private:
+  /// Halves the readings of all frames, and of those to come.
+  void ThinOut();
+  /// True if a frame keeps its reading of this probe.
+  bool Keeps(std::uint32_t probe, std::size_t frame) const {
+    return (probe + frame) % thinning_ == 0;
+  }
   void AddMarker(const scene::MarkerReflectance& marker);
   /// Returns whether the probe's pixel lies in the image, and appends its brightness if it is
   /// visible and not clipped.
@@ -57,6 +65,9 @@ class LightProbes {
   CameraResponse response_;
   std::vector<LightProbe> probes_;
   std::vector<ProbedFrame> frames_;
+  std::size_t max_readings_;
+  std::size_t readings_ = 0;  // Of all frames.
+  std::size_t thinning_ = 1;  // A frame keeps one of so many readings.
 };
 
 /// How a light would fall on a probe, lux, linear Rec.709.

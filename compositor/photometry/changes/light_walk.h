@@ -3,6 +3,7 @@
 // Internal: between .cc files.
 
 #include <Eigen/Core>
+#include <array>
 #include <vector>
 
 namespace pleinair::compositor {
@@ -11,35 +12,52 @@ namespace pleinair::compositor {
 using LogLight = Eigen::Matrix<double, 6, 1>;
 using LogLightMatrix = Eigen::Matrix<double, 6, 6>;
 
-/// What one frame's probes tell of its light: a quadratic cost around `at`.
-struct LightEvidence6 {
-  LogLight at = LogLight::Zero();
-  LogLight gradient = LogLight::Zero();  ///< Of the logarithmic likelihood at `at`.
-  LogLightMatrix information = LogLightMatrix::Zero();
-};
-
-/// Light of all frames with its uncertainty.
-struct SmoothedLight {
-  std::vector<LogLight> light;
-  std::vector<LogLightMatrix> covariance;
-};
-
-/// Random walk of the light from frame to frame. Exposure moves sun and sky of all channels alike;
-/// sun and sky also move by themselves, and each channel a little. Steps have a multivariate
-/// Student distribution (Lange, Little & Taylor 1989, "Robust statistical modeling using the t
-/// distribution", §3): mostly small, at times large.
+/// Random walk of the light from frame to frame. A step is the sum of four independent ones: of the
+/// exposure, which moves sun and sky of all channels alike; of the sun, as a share of the full sun,
+/// so that a faint one may fade to nothing; of the sky; and of each channel a little. Each has a
+/// Student distribution, mostly small, at times large (Lange, Little & Taylor 1989, "Robust
+/// statistical modeling using the t distribution", §3), so that a jump of one says nothing about
+/// the others.
 class LightWalk {
  public:
   /// `seconds`: times of the frames, ascending.
   explicit LightWalk(const std::vector<double>& seconds);
 
-  /// One step of the maximum a posteriori fit: the best light for the evidence and the current
-  /// scales of the steps (block-tridiagonal Cholesky). Then it sets these scales by the result.
-  SmoothedLight Smooth(const std::vector<LightEvidence6>& evidence);
+  /// Inverse covariance of the step from frame t to the next, for the current variances.
+  const LogLightMatrix& Precision(std::size_t t) const { return steps_[t].precision; }
+  /// Sets the variances to their expectation for this light (expectation maximisation).
+  void Learn(const std::vector<LogLight>& light);
 
  private:
-  std::vector<LogLightMatrix> precision_;  // Of each step between frames, at its usual scale.
-  std::vector<double> weight_;             // Of each step: below 1 where the light jumps.
+  /// Variances of one step's parts.
+  struct Step {
+    std::array<double, 4> usual{};  ///< Before anything is seen: exposure, sun, sky, channels.
+    std::array<double, 3> parts{};  ///< Exposure, sun, sky.
+    double channels = 0.0;
+    LogLightMatrix precision;  ///< Of the sum.
+  };
+  static void SetPrecision(Step* step);
+  /// `log_sun`: logarithm of the sun over the full sun, beside its sky, during the step.
+  static void Learn(const LogLight& moved, double log_sun, Step* step);
+
+  std::vector<Step> steps_;
+};
+
+/// Symmetric system of equations whose frames are coupled to their neighbours alone, factorized by
+/// blocks (Cholesky).
+class BlockTridiagonal {
+ public:
+  /// `diagonal` has one block per frame. The block between t and t + 1 is minus `walk`'s precision,
+  /// whose share of the diagonal is added here.
+  BlockTridiagonal(const std::vector<LogLightMatrix>& diagonal, const LightWalk& walk);
+
+  std::vector<LogLight> Solve(std::vector<LogLight> right) const;
+  /// Diagonal blocks of the inverse matrix.
+  std::vector<LogLightMatrix> InverseBlocks() const;
+
+ private:
+  const LightWalk& walk_;
+  std::vector<LogLightMatrix> inverse_;  // Of each block, after those before are eliminated.
 };
 
 }  // namespace pleinair::compositor

@@ -1,0 +1,60 @@
+#pragma once
+
+// Internal: between .cc files.
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+#include "compositor/photometry/changes/light_walk.h"
+#include "compositor/photometry/changes/probe_fit.h"
+
+namespace pleinair::compositor {
+
+/// Unknowns that probes have in common, or a step of them.
+struct LightUnknowns {
+  std::vector<LogLight> light;     ///< By frame.
+  std::vector<PlaneError> planes;  ///< Error of the modelled sun over sky, by plane.
+
+  LightUnknowns(std::size_t frame_count, std::size_t plane_count)
+      : light(frame_count, LogLight::Zero()), planes(plane_count, PlaneError::Zero()) {}
+  double Dot(const LightUnknowns& other) const;
+  void Add(const LightUnknowns& other, double factor);
+  void Scale(double factor);
+  /// Largest step of a frame's light.
+  double Largest() const;
+};
+
+/// Equations of one Gauss-Newton step, around `now`. Albedos and errors of single probes are
+/// eliminated. The reference frames' light is 1 in the mean.
+class LightEquations {
+ public:
+  /// `probes` are linearized. Without `shares` the planes' errors are 0.
+  LightEquations(const std::vector<ProbeFit>& probes, const LightWalk& walk,
+                 const std::vector<std::size_t>& reference, const LightUnknowns& now, bool shares);
+
+  /// By conjugate gradients (Hestenes & Stiefel 1952), preconditioned with what frames tell where
+  /// albedos are known.
+  LightUnknowns Solve() const;
+  /// What the probes tell of each frame where albedos are known: inverse covariances, without
+  /// priors.
+  const std::vector<LogLightMatrix>& told() const { return told_; }
+  /// Covariance of each frame's light where albedos are known.
+  std::vector<LogLightMatrix> Covariance() const;
+
+ private:
+  /// The priors' matrix times `x`: of frames, walk, planes and reference.
+  LightUnknowns PriorProduct(const LightUnknowns& x) const;
+  LightUnknowns Product(const LightUnknowns& x) const;
+
+  const std::vector<ProbeFit>& probes_;
+  const LightWalk& walk_;
+  const std::vector<std::size_t>& reference_;
+  LogLightMatrix frame_prior_;
+  Eigen::Matrix3d plane_prior_;
+  LightUnknowns right_;
+  std::vector<LogLightMatrix> told_, diagonal_;  // Diagonal blocks; with priors, too.
+  std::vector<PlaneError> plane_diagonal_;
+};
+
+}  // namespace pleinair::compositor

@@ -1,0 +1,87 @@
+#pragma once
+
+// Internal: between .cc files.
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "compositor/photometry/changes/light_probes.h"
+#include "compositor/photometry/changes/light_walk.h"
+
+namespace pleinair::compositor {
+
+/// Error of the modelled sun over sky that the probes of a plane have in common, logarithms of red,
+/// green and blue.
+using PlaneError = Eigen::Vector3d;
+
+/// Brightness of a probe in one frame, and how the model divides and weighs it.
+struct ProbeReading {
+  std::size_t frame = 0;
+  std::array<float, 3> log_linear{};
+  std::array<float, 3> sun_share{};  ///< Share of the sun in the modelled light.
+  std::array<float, 3> residual{};   ///< Logarithm of the reading over the model.
+  std::array<float, 3> weight{};     ///< Inverse variance, less for outliers.
+};
+
+/// One probe over time: its readings, its albedo, and the error of its modelled sun over sky.
+/// Albedo and error are eliminated from the equations of the light (Schur complement), and found
+/// from its solution.
+class ProbeFit {
+ public:
+  ProbeFit(const ProbeLight& light, std::size_t plane) : light_(light), plane_(plane) {}
+
+  void Add(std::size_t frame, const std::array<float, 3>& linear);
+  bool empty() const { return readings_.empty(); }
+  std::size_t plane() const { return plane_; }
+  const std::vector<ProbeReading>& readings() const { return readings_; }
+  double noise() const { return noise_; }
+
+  /// Sets the albedo to what explains the readings of the frames that count. `factors` are the
+  /// exponentials of their light, here and below.
+  void SetAlbedo(const std::vector<LogLight>& factors, const std::vector<bool>& counts);
+  /// Mean logarithm of a reading's light over the model's in the recording's own light.
+  double Brightness(const ProbeReading& reading) const;
+
+  /// Evaluates the model: shares, residuals and weights of the readings. `plane_error` is that of
+  /// all probes of the plane. `independent` are factors on the weights, by frame. With `shares` the
+  /// probe's own error is estimated, too.
+  void Linearize(const std::vector<LogLight>& factors, const PlaneError& plane_error,
+                 const std::vector<double>& independent, bool shares);
+  /// Equations of the light: adds this probe's part of the right-hand side, with the probe's own
+  /// unknowns eliminated, and of the diagonal blocks, without that.
+  void AddEquations(std::vector<LogLight>* right, PlaneError* plane_right,
+                    std::vector<LogLightMatrix>* diagonal, PlaneError* plane_diagonal) const;
+  /// Adds the product of the eliminated matrix with a step of light and plane error.
+  void AddProduct(const std::vector<LogLight>& step, const PlaneError& plane_step,
+                  std::vector<LogLight>* product, PlaneError* plane_product) const;
+  /// Moves albedo and own error for this step of the light.
+  void Move(const std::vector<LogLight>& step, const PlaneError& plane_step);
+
+  /// Sets the noise by the residuals; `usual` is that of most probes.
+  void SetNoise(double usual);
+  /// Decides whether unmodelled geometry shades the probe: if that explains its readings better.
+  void DecideShade(const std::vector<LogLight>& factors, const PlaneError& plane_error);
+
+ private:
+  using Unknowns = Eigen::Vector4d;  // Albedo of three channels, and the error.
+
+  /// Light of sun and of sky in the recording's own light.
+  std::array<LinearRgb, 2> Parts(const PlaneError& plane_error) const;
+  /// The readings' changes by a step of light and plane error, as seen by the own unknowns.
+  Unknowns Gather(const std::vector<LogLight>& step, const PlaneError& plane_step) const;
+  /// Negative logarithm of the readings' likelihood.
+  double Cost(const std::vector<LogLight>& factors, const PlaneError& plane_error) const;
+
+  ProbeLight light_;
+  std::size_t plane_;
+  std::vector<ProbeReading> readings_;
+  Unknowns unknowns_ = Unknowns::Zero();
+  bool shaded_ = false;
+  double noise_ = 0.1;                                 // Relative.
+  Eigen::Matrix4d inverse_ = Eigen::Matrix4d::Zero();  // Of the own unknowns' equations.
+  Unknowns right_ = Unknowns::Zero();
+};
+
+}  // namespace pleinair::compositor
