@@ -44,7 +44,7 @@ class LightFollower {
            std::int64_t timestamp_ns);
 
   /// Estimates the light of all frames, relative to that of the `reference` frames, whose light is
-  /// `day`.
+  /// `day`. Without any, these are the frames with the deepest shadows.
   void Fit(const sky::SkyModel& day, const Mat3& marker_from_world,
            const std::set<std::int64_t>& reference);
 

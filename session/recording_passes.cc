@@ -76,11 +76,10 @@ const std::vector<Observation>& PathOf(const Pipeline& pipeline) {
   return marker ? pipeline.tracks().TrackOf(*marker) : kNone;
 }
 
-/// Estimates the changes of the light about that of the chosen frames.
+/// Estimates the changes of the light about that of the `reference` frames; `chosen` are indices of
+/// the path, whose middle gives the time.
 void FollowLight(Pipeline& pipeline, const std::vector<Observation>& path,
-                 const std::vector<std::size_t>& chosen) {
-  std::set<std::int64_t> reference;
-  for (const std::size_t i : chosen) reference.insert(path[i].frame_index);
+                 const std::vector<std::size_t>& chosen, const std::set<std::int64_t>& reference) {
   pipeline.renderer().FollowLight(pipeline.MomentOf(path[chosen[chosen.size() / 2]].timestamp_ns),
                                   reference);
 }
@@ -96,7 +95,7 @@ std::vector<Observation> PathInFullSun(Pipeline& pipeline) {
   std::vector<Observation> path = PathOf(pipeline);
   const std::vector<std::size_t> chosen = LightFrames(path);
   if (chosen.empty()) return path;
-  FollowLight(pipeline, path, chosen);
+  FollowLight(pipeline, path, chosen, {});
   if (!LightChanges(pipeline)) return path;
   const std::set<std::int64_t> sunny = pipeline.renderer().light_follower()->FramesInFullSun();
   std::erase_if(path, [&](const Observation& at) { return !sunny.contains(at.frame_index); });
@@ -187,7 +186,9 @@ Result<void> EstimateLight(Pipeline& pipeline, devices::Recording recording,
     return 0;
   });
   pass.times().Measure("follow light", [&] {
-    if (LightChanges(pipeline)) FollowLight(pipeline, path, chosen);
+    std::set<std::int64_t> reference;
+    for (const std::size_t i : chosen) reference.insert(path[i].frame_index);
+    if (LightChanges(pipeline)) FollowLight(pipeline, path, chosen, reference);
     return 0;
   });
   return {};

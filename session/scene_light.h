@@ -51,7 +51,8 @@ class SceneLight {
              const CameraResponse& response);
 
   /// Estimates how the light of the probed frames changes about that of the `reference` frames at
-  /// `time`. Before Conclude() the described sun lights the scene, afterwards the estimated light.
+  /// `time`; without any, about that of the frames with the deepest shadows. Before Conclude() the
+  /// described sun lights the scene, afterwards the estimated light.
   void Follow(const scene::SceneDescription& scene, UtcTime time,
               const std::set<std::int64_t>& reference);
   /// Null if no frame was probed.

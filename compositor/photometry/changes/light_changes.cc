@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "base/parallel_for.h"
 #include "base/quantile.h"
@@ -19,8 +20,14 @@ namespace {
 // Largest number of rounds, and the logarithmic step at which they end.
 constexpr int kMaxRounds = 40;
 constexpr double kConverged = 0.002;
+// Rounds with a large noise, the same for all probes.
+constexpr int kStartRounds = 4;
 // Rounds after which unmodelled shade is decided.
 constexpr std::array kShadeRounds{2, 6};
+// Probes in shade that every frame needs to show how deep its shadows are. Quantile of the frames'
+// depths that counts as the full sun's, and how much less, logarithmic, is still full sun.
+constexpr std::size_t kMinShadedProbes = 5;
+constexpr double kDeepest = 0.9, kAsDeep = 0.1;
 // Independent probes of a frame: errors of neighbours are alike.
 constexpr double kIndependentProbes = 100.0;
 // Error of the modelled sun over sky that all probes have in common, relative.
@@ -38,9 +45,8 @@ constexpr double kLargestStep = 0.5;
 class Fit {
  public:
   Fit(const std::vector<ProbedFrame>& frames, const std::vector<LightProbe>& probes,
-      const std::vector<ProbeLight>& light, const std::vector<std::size_t>& reference,
-      LightWalk* walk)
-      : reference_(reference),
+      const std::vector<ProbeLight>& light, std::vector<std::size_t> reference, LightWalk* walk)
+      : reference_(std::move(reference)),
         walk_(walk),
         now_(frames.size(), 0),
         factors_(frames.size(), LogLight::Ones()),
@@ -63,6 +69,7 @@ class Fit {
 
   /// Albedos by the reference frames, and every frame's light by its brightness alone.
   void Start() {
+    if (reference_.empty()) reference_ = FramesInFullSun();
     std::vector<bool> counts(now_.light.size(), false);
     for (const std::size_t t : reference_) counts[t] = true;
     std::vector<std::vector<double>> brightness(now_.light.size());
@@ -87,12 +94,14 @@ class Fit {
   void Converge(bool shares) {
     for (int i = 0; i < kMaxRounds; ++i) {
       const double moved = Iterate(shares);
-      const bool deciding = shares && i <= kShadeRounds.back();
-      if (deciding &&
-          std::find(kShadeRounds.begin(), kShadeRounds.end(), i) != kShadeRounds.end()) {
+      // At first every probe counts: a shadow that stays as it was would pass for an outlier.
+      const bool starting = !shares && i < kStartRounds;
+      if (!starting) UpdateNoise();
+      const bool settling = starting || (shares && i <= kShadeRounds.back());
+      if (shares && std::find(kShadeRounds.begin(), kShadeRounds.end(), i) != kShadeRounds.end()) {
         DecideShade();
       }
-      if (moved < kConverged && !deciding) break;
+      if (moved < kConverged && !settling) break;
     }
   }
 
@@ -135,8 +144,42 @@ class Fit {
     now_.Add(step, 1.0);
     UpdateFactors();
     walk_->Learn(now_.light);
-    UpdateNoise();
     return step.Largest();
+  }
+
+  /// The frames with the deepest shadows; the brightest ones where too few probes are in shade.
+  std::vector<std::size_t> FramesInFullSun() const {
+    // Brightness about each probe's usual one, by frame: of probes in the sun and of others.
+    std::array<std::vector<std::vector<double>>, 2> about;
+    about.fill(std::vector<std::vector<double>>(now_.light.size()));
+    for (const ProbeFit& probe : probes_) {
+      std::vector<double> values;
+      for (const ProbeReading& reading : probe.readings()) {
+        values.push_back(probe.Brightness(reading));
+      }
+      if (values.empty()) continue;
+      const double usual = Median(values);
+      for (std::size_t k = 0; k < values.size(); ++k) {
+        about[probe.IsSunlit() ? 1 : 0][probe.readings()[k].frame].push_back(values[k] - usual);
+      }
+    }
+    const auto& [shaded, sunlit] = about;
+    const bool compare = std::all_of(shaded.begin(), shaded.end(), [](const auto& values) {
+      return values.size() >= kMinShadedProbes;
+    });
+    std::vector<double> depths(now_.light.size(), -INFINITY), known;
+    for (std::size_t t = 0; t < depths.size(); ++t) {
+      if (sunlit[t].empty()) continue;
+      depths[t] = Median(sunlit[t]) - (compare ? Median(shaded[t]) : 0.0);
+      known.push_back(depths[t]);
+    }
+    std::vector<std::size_t> frames;
+    if (known.empty()) return frames;
+    const double full = Quantile(known, kDeepest) - kAsDeep;
+    for (std::size_t t = 0; t < depths.size(); ++t) {
+      if (depths[t] >= full) frames.push_back(t);
+    }
+    return frames;
   }
 
   void UpdateFactors() {
@@ -199,13 +242,13 @@ class Fit {
     return precision > 0.0 ? 1.0 / std::sqrt(precision) : INFINITY;
   }
 
-  const std::vector<std::size_t>& reference_;
+  std::vector<std::size_t> reference_;
   LightWalk* walk_;
   LightUnknowns now_;
   std::vector<LogLight> factors_;    // Exponentials of the light.
   std::vector<double> independent_;  // Factor on each frame's evidence.
   std::vector<ProbeFit> probes_;
-  double noise_ = 0.1;                             // Usual noise of a probe, relative.
+  double noise_ = 0.3;                             // Usual noise of a probe, relative.
   std::vector<LogLightMatrix> told_, covariance_;  // Of the last round: LightEquations.
 };
 

@@ -46,7 +46,8 @@ struct LightChanges {
 /// geometry shades the probe, whichever explains the probe over time. Residuals are relative and
 /// have Student's distribution. The logarithms of a and b follow random walks with heavy-tailed
 /// steps, and channels change nearly alike. `reference` are indices of frames in which a and b are
-/// 1 in the mean; they resolve the gauge of ρ.
+/// 1 in the mean; they resolve the gauge of ρ. Without any, these are the frames in which shadows
+/// are deepest: those in full sun.
 ///
 /// The model is ours; the steps of the walk follow Lange, Little & Taylor 1989 (light_walk.h).
 LightChanges FitLightChanges(const std::vector<ProbedFrame>& frames,

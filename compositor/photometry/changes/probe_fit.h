@@ -35,6 +35,8 @@ class ProbeFit {
   void Add(std::size_t frame, const std::array<float, 3>& linear);
   bool empty() const { return readings_.empty(); }
   std::size_t plane() const { return plane_; }
+  /// True if the phantoms let most of the sun through to it.
+  bool IsSunlit() const { return light_.direct.g > 0.0 && light_.sun_visibility > 0.5; }
   const std::vector<ProbeReading>& readings() const { return readings_; }
   double noise() const { return noise_; }
 
@@ -79,7 +81,7 @@ class ProbeFit {
   std::vector<ProbeReading> readings_;
   Unknowns unknowns_ = Unknowns::Zero();
   bool shaded_ = false;
-  double noise_ = 0.1;                                 // Relative.
+  double noise_ = 0.3;                                 // Relative.
   Eigen::Matrix4d inverse_ = Eigen::Matrix4d::Zero();  // Of the own unknowns' equations.
   Unknowns right_ = Unknowns::Zero();
 };
