@@ -20,7 +20,7 @@ void ExposureMeter::Read(ImageView<const std::uint8_t> rgb, const CameraModel& c
   summary->exposure_scale =
       (filter_.empty() ? guess_ : filter_.ExposureScale()) * followed.exposure;
   if (!filter_.empty()) summary->exposure_scale_error = filter_.Error();
-  summary->exposure_scale_change = filter_.Change();
+  summary->exposures.change = filter_.Change();
 }
 
 }  // namespace pleinair::session

@@ -21,10 +21,11 @@ struct FrameLightSummary {
   FollowedLight followed;  ///< How this frame's light differs from that of the recording.
 };
 
-/// Frames so far.
-struct ExposureCounts {
-  int estimates = 0;  ///< Frames in which the marker gave an exposure estimate.
-  int dappled = 0;    ///< Those in which leaves shade the marker.
+/// Exposure of the frames so far.
+struct ExposureHistory {
+  int estimates = 0;    ///< Frames in which the marker gave an exposure estimate.
+  int dappled = 0;      ///< Those in which leaves shade the marker.
+  double change = 1.0;  ///< See ExposureFilter::Change().
 };
 
 /// Light of a frame: sun, sky and exposure.
@@ -39,9 +40,7 @@ struct LightSummary {
   FrameLightSummary frame;
   /// See ExposureFilter::Error(); only for kMarker.
   LinearRgb exposure_scale_error;
-  /// See ExposureFilter::Change().
-  double exposure_scale_change = 1.0;
-  ExposureCounts exposures;
+  ExposureHistory exposures;
   /// Share of the marker that the phantoms leave sunlit, at the last estimate.
   double marker_sunlit_share = 0.0;
   /// Blur and noise of the last frames. Empty where they are not matched or cannot be measured.

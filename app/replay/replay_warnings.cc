@@ -132,13 +132,13 @@ std::vector<std::string> LightWarnings(const session::LightSummary& summary,
         "The exposure could not be estimated from the marker in any frame and is guessed. Set "
         "exposure_gain in the scene if the brightness is wrong.");
   }
-  if (summary.exposure_scale_change > kNoticeableExposureChange && !AreToldApart(rows)) {
+  if (summary.exposures.change > kNoticeableExposureChange && !AreToldApart(rows)) {
     warnings.push_back(
         fmt::format("The marker's brightness changed by a factor of {:.1f}. It is attributed to "
                     "the camera's exposure, and sun and sky are assumed constant: if a cloud "
                     "passed, shadows are too dark or too faint before or after it. Replay the "
                     "parts one by one, or film with locked exposure.",
-                    summary.exposure_scale_change));
+                    summary.exposures.change));
   }
   const double elevation_deg = ToDegrees(summary.sun.elevation);
   if (elevation_deg < kNightDeg) {

@@ -163,7 +163,7 @@ std::string ExposureScaleCard(const session::LightSummary& light) {
               what + fmt::format("± {:.1f} {:.1f} {:.1f} % from the marker in {} frames, changed "
                                  "by a factor of {:.2f}",
                                  error.r * 100, error.g * 100, error.b * 100,
-                                 light.exposures.estimates, light.exposure_scale_change));
+                                 light.exposures.estimates, light.exposures.change));
 }
 
 /// Whether the sun reaches the marker; empty if the marker gave no exposure estimate.

@@ -106,7 +106,7 @@ Json LightJson(const session::LightSummary& light) {
           {"gain_rgb", ColorJson(light.exposure_scale)},
           {"gain_from", SourceName(light.exposure_scale_source)},
           {"gain_relative_error_rgb", is_metered ? ColorJson(light.exposure_scale_error) : Json()},
-          {"gain_change", IfKnown(is_metered, light.exposure_scale_change)},
+          {"gain_change", IfKnown(is_metered, light.exposures.change)},
           {"gain_readings", light.exposures.estimates},
           {"marker_in_sun", IfKnown(may_be_lit, light.marker_sunlit_share)},
           {"marker_dappled", IfKnown(light.exposures.estimates > 0, session::DappledShare(light))},

@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <utility>
 
 #include "base/parallel_for.h"
 #include "base/quantile.h"
 #include "compositor/photometry/changes/light_equations.h"
+#include "compositor/photometry/changes/light_start.h"
 #include "compositor/photometry/changes/light_walk.h"
 #include "compositor/photometry/changes/probe_fit.h"
 #include "compositor/photometry/surface_samples.h"
@@ -20,24 +22,27 @@ namespace {
 // Largest number of rounds, and the logarithmic step at which they end.
 constexpr int kMaxRounds = 40;
 constexpr double kConverged = 0.002;
-// Rounds with a large noise, the same for all probes.
-constexpr int kStartRounds = 4;
+// Relative change of the noise, likewise.
+constexpr double kNoiseConverged = 0.05;
+// The step at which a noise that is large, and the same for all probes, gives way to that of each.
+constexpr double kStarted = 0.05;
 // Rounds after which unmodelled shade is decided.
 constexpr std::array kShadeRounds{2, 6};
-// Probes in shade that every frame needs to show how deep its shadows are. Quantile of the frames'
-// depths that counts as the full sun's, and how much less, logarithmic, is still full sun.
-constexpr std::size_t kMinShadedProbes = 5;
-constexpr double kDeepest = 0.9, kAsDeep = 0.1;
 // Independent probes of a frame: errors of neighbours are alike.
 constexpr double kIndependentProbes = 100.0;
 // Error of the modelled sun over sky that all probes have in common, relative.
 constexpr double kModelError = 0.05;
 // Largest standard deviation of the logarithm of sun over sky for a reading of this kind.
 constexpr double kToldBySurfaces = 0.1, kToldByColors = 0.3;
-// A change of sun over sky, as a part of the full sun: beyond so many standard deviations and this
-// much, in so many frames in a row.
-constexpr double kChangeSigmas = 4.0, kMinChange = 0.05;
-constexpr int kChangeFrames = 3;
+// A change of sun over sky: by so much of the full sun, in so many frames in a row, each of which
+// steady light explains worse by this, the logarithm of the likelihoods' ratio. It is large, since
+// errors of the model are alike in many probes.
+constexpr double kMinChange = 0.05;
+constexpr std::size_t kChangeFrames = 3;
+constexpr double kConclusive = 20.0;
+// Samples of the posterior, and how many frames on either side have errors alike.
+constexpr std::uint32_t kSamples = 8;
+constexpr std::size_t kAlike = 2;
 // Largest step of a logarithm in one round.
 constexpr double kLargestStep = 0.5;
 
@@ -50,7 +55,8 @@ class Fit {
         walk_(walk),
         now_(frames.size(), 0),
         factors_(frames.size(), LogLight::Ones()),
-        independent_(frames.size(), 1.0) {
+        independent_(frames.size(), 1.0),
+        ratio_variances_(frames.size(), 0.0) {
     std::map<std::array<int, 3>, std::size_t> planes;
     for (std::size_t i = 0; i < light.size(); ++i) {
       const auto plane = planes.try_emplace(PlaneOf(0, probes[i].normal).second, planes.size());
@@ -67,56 +73,82 @@ class Fit {
     }
   }
 
-  /// Albedos by the reference frames, and every frame's light by its brightness alone.
   void Start() {
-    if (reference_.empty()) reference_ = FramesInFullSun();
-    std::vector<bool> counts(now_.light.size(), false);
-    for (const std::size_t t : reference_) counts[t] = true;
-    std::vector<std::vector<double>> brightness(now_.light.size());
-    for (ProbeFit& probe : probes_) {
-      probe.SetAlbedo(factors_, counts);
-      const bool known = std::any_of(probe.readings().begin(), probe.readings().end(),
-                                     [&](const auto& reading) { return counts[reading.frame]; });
-      if (!known) continue;
-      for (const ProbeReading& reading : probe.readings()) {
-        brightness[reading.frame].push_back(probe.Brightness(reading));
-      }
-    }
-    for (std::size_t t = 0; t < brightness.size(); ++t) {
-      if (!brightness[t].empty()) now_.light[t].setConstant(Median(brightness[t]));
-    }
+    LightStart start = StartLight(probes_, now_.light.size(), reference_);
+    reference_ = std::move(start.reference);
+    now_.light = std::move(start.light);
     UpdateFactors();
-    std::fill(counts.begin(), counts.end(), true);
-    ParallelFor(probes_.size(), 0, [&](std::size_t i) { probes_[i].SetAlbedo(factors_, counts); });
+    ParallelFor(probes_.size(), 0, [&](std::size_t i) { probes_[i].SetAlbedo(factors_); });
   }
 
-  /// Runs the rounds. `shares`: whether sun over sky of the probes is estimated, too.
-  void Converge(bool shares) {
+  void Converge() {
+    bool starting = true;
     for (int i = 0; i < kMaxRounds; ++i) {
-      const double moved = Iterate(shares);
+      const double moved = Iterate();
       // At first every probe counts: a shadow that stays as it was would pass for an outlier.
-      const bool starting = !shares && i < kStartRounds;
+      if (moved < kStarted) starting = false;
+      const double noise_before = noise_;
       if (!starting) UpdateNoise();
-      const bool settling = starting || (shares && i <= kShadeRounds.back());
-      if (shares && std::find(kShadeRounds.begin(), kShadeRounds.end(), i) != kShadeRounds.end()) {
+      const bool settling = starting || i <= kShadeRounds.back() ||
+                            std::fabs(noise_ / noise_before - 1.0) > kNoiseConverged;
+      if (std::find(kShadeRounds.begin(), kShadeRounds.end(), i) != kShadeRounds.end()) {
         DecideShade();
       }
       if (moved < kConverged && !settling) break;
     }
   }
 
-  /// True if sun over sky changes, as a part of the full sun, by more than the readings' noise.
-  bool Changes() const {
-    int in_a_row = 0;
-    const int needed = std::min<int>(kChangeFrames, static_cast<int>(now_.light.size()));
-    for (std::size_t t = 0; t < now_.light.size(); ++t) {
-      const double ratio = ResultOf(t).LogRatio();
-      const double noise = kChangeSigmas * ErrorOfReadings(t) * std::exp(ratio);
-      const bool differs = std::fabs(std::expm1(ratio)) > std::max(kMinChange, noise);
-      in_a_row = differs ? in_a_row + 1 : 0;
-      if (in_a_row >= needed) return true;
+  /// Lets only the exposure change from now on, on a walk of its own; noise and shade stay as they
+  /// are.
+  void Hold(LightWalk* walk) {
+    walk_ = walk;
+    walk_->Hold();
+    LogLight balance = LogLight::Zero();
+    for (const LogLight& light : now_.light) {
+      balance += (light.array() - light.mean()).matrix() / static_cast<double>(now_.light.size());
     }
-    return false;
+    for (LogLight& light : now_.light) light = balance.array() + light.mean();
+    UpdateFactors();
+    for (int i = 0; i < kMaxRounds && Iterate() > kConverged; ++i) {
+    }
+  }
+
+  /// Negative logarithm of the readings' likelihood, by frame.
+  std::vector<double> Costs() const {
+    std::vector<double> costs(factors_.size(), 0.0);
+    for (const ProbeFit& probe : probes_) {
+      probe.Cost(factors_, now_.planes[probe.plane()], independent_, &costs);
+    }
+    return costs;
+  }
+
+  /// Uncertainty of sun over sky with that of albedos and shares, by samples of the posterior. The
+  /// fit cannot go on afterwards.
+  void SampleErrors() {
+    const std::size_t count = now_.light.size();
+    std::vector<double> squares(count, 0.0);
+    const auto probes = static_cast<std::uint32_t>(probes_.size());
+    for (std::uint32_t sample = 0; sample < kSamples; ++sample) {
+      ParallelFor(probes_.size(), 0, [&](std::size_t i) {
+        probes_[i].PutNoise(sample * probes + static_cast<std::uint32_t>(i));
+      });
+      LightEquations equations(probes_, *walk_, reference_,
+                               LightUnknowns(count, now_.planes.size()));
+      equations.AddPriorNoise(sample);
+      const LightUnknowns error = equations.Solve();
+      for (std::size_t t = 0; t < count; ++t) {
+        const double ratio = RatioDirection().dot(error.light[t]);
+        squares[t] += ratio * ratio / (ratio_variances_[t] * kSamples);
+      }
+    }
+    // Few samples, but frames nearby are alike.
+    const std::vector<double> variances = ratio_variances_;
+    for (std::size_t t = 0; t < count; ++t) {
+      const std::size_t begin = t < kAlike ? 0 : t - kAlike, end = std::min(count, t + kAlike + 1);
+      double sum = 0.0;
+      for (std::size_t s = begin; s < end; ++s) sum += squares[s];
+      ratio_variances_[t] = variances[t] * sum / static_cast<double>(end - begin);
+    }
   }
 
   std::vector<FrameLight> Result() const {
@@ -127,13 +159,16 @@ class Fit {
 
  private:
   /// One round; returns the largest step of a frame's light.
-  double Iterate(bool shares) {
+  double Iterate() {
     ParallelFor(probes_.size(), 0, [&](std::size_t i) {
-      probes_[i].Linearize(factors_, now_.planes[probes_[i].plane()], independent_, shares);
+      probes_[i].Linearize(factors_, now_.planes[probes_[i].plane()], independent_);
     });
-    const LightEquations equations(probes_, *walk_, reference_, now_, shares);
+    const LightEquations equations(probes_, *walk_, reference_, now_);
     told_ = equations.told();
-    covariance_ = equations.Covariance();
+    const std::vector<LogLightMatrix> covariances = equations.Covariance();
+    for (std::size_t t = 0; t < covariances.size(); ++t) {
+      ratio_variances_[t] = RatioDirection().dot(covariances[t] * RatioDirection());
+    }
     LightUnknowns step = equations.Solve();
     if (const double largest = step.Largest(); largest > kLargestStep) {
       step.Scale(kLargestStep / largest);
@@ -147,41 +182,6 @@ class Fit {
     return step.Largest();
   }
 
-  /// The frames with the deepest shadows; the brightest ones where too few probes are in shade.
-  std::vector<std::size_t> FramesInFullSun() const {
-    // Brightness about each probe's usual one, by frame: of probes in the sun and of others.
-    std::array<std::vector<std::vector<double>>, 2> about;
-    about.fill(std::vector<std::vector<double>>(now_.light.size()));
-    for (const ProbeFit& probe : probes_) {
-      std::vector<double> values;
-      for (const ProbeReading& reading : probe.readings()) {
-        values.push_back(probe.Brightness(reading));
-      }
-      if (values.empty()) continue;
-      const double usual = Median(values);
-      for (std::size_t k = 0; k < values.size(); ++k) {
-        about[probe.IsSunlit() ? 1 : 0][probe.readings()[k].frame].push_back(values[k] - usual);
-      }
-    }
-    const auto& [shaded, sunlit] = about;
-    const bool compare = std::all_of(shaded.begin(), shaded.end(), [](const auto& values) {
-      return values.size() >= kMinShadedProbes;
-    });
-    std::vector<double> depths(now_.light.size(), -INFINITY), known;
-    for (std::size_t t = 0; t < depths.size(); ++t) {
-      if (sunlit[t].empty()) continue;
-      depths[t] = Median(sunlit[t]) - (compare ? Median(shaded[t]) : 0.0);
-      known.push_back(depths[t]);
-    }
-    std::vector<std::size_t> frames;
-    if (known.empty()) return frames;
-    const double full = Quantile(known, kDeepest) - kAsDeep;
-    for (std::size_t t = 0; t < depths.size(); ++t) {
-      if (depths[t] >= full) frames.push_back(t);
-    }
-    return frames;
-  }
-
   void UpdateFactors() {
     for (std::size_t t = 0; t < factors_.size(); ++t) factors_[t] = now_.light[t].array().exp();
   }
@@ -192,12 +192,11 @@ class Fit {
     });
   }
 
-  /// Standard deviation of log(sun over sky), mean of the channels, by the readings alone.
-  double ErrorOfReadings(std::size_t t) const {
-    LogLight ratio;
-    ratio << 1.0, 1.0, 1.0, -1.0, -1.0, -1.0;
-    ratio /= 3.0;
-    return std::sqrt(ratio.dot(covariance_[t] * ratio));
+  /// Product with a frame's light: log(sun over sky), mean of the channels.
+  static LogLight RatioDirection() {
+    LogLight direction;
+    direction << 1.0, 1.0, 1.0, -1.0, -1.0, -1.0;
+    return direction / 3.0;
   }
 
   FrameLight ResultOf(std::size_t t) const {
@@ -207,7 +206,7 @@ class Fit {
     frame.sky = {std::exp(log[3]), std::exp(log[4]), std::exp(log[5])};
     // With an error e of the common share, the same brightness means a sun of a + e (1 - a).
     frame.log_ratio_error =
-        std::hypot(ErrorOfReadings(t), kModelError * std::expm1(-frame.LogRatio()));
+        std::hypot(std::sqrt(ratio_variances_[t]), kModelError * std::expm1(-frame.LogRatio()));
     using Source = FrameLight::Source;
     const double by_surfaces = ErrorBySurfaces(told_[t]);
     if (told_[t].isZero()) {
@@ -248,9 +247,24 @@ class Fit {
   std::vector<LogLight> factors_;    // Exponentials of the light.
   std::vector<double> independent_;  // Factor on each frame's evidence.
   std::vector<ProbeFit> probes_;
-  double noise_ = 0.3;                             // Usual noise of a probe, relative.
-  std::vector<LogLightMatrix> told_, covariance_;  // Of the last round: LightEquations.
+  double noise_ = 0.3;                   // Usual noise of a probe, relative.
+  std::vector<LogLightMatrix> told_;     // Of the last round: LightEquations.
+  std::vector<double> ratio_variances_;  // Of log(sun over sky), mean of the channels.
 };
+
+/// True if in some frames in a row sun over sky differs, as a part of the full sun, and steady
+/// light explains them worse.
+bool Differ(const std::vector<FrameLight>& frames, const std::vector<double>& costs,
+            const std::vector<double>& steady_costs) {
+  const std::size_t needed = std::min<std::size_t>(kChangeFrames, frames.size());
+  std::size_t in_a_row = 0;
+  for (std::size_t t = 0; t < frames.size(); ++t) {
+    const bool differs = std::fabs(std::expm1(frames[t].LogRatio())) > kMinChange;
+    in_a_row = differs && steady_costs[t] - costs[t] > kConclusive ? in_a_row + 1 : 0;
+    if (in_a_row >= needed) return true;
+  }
+  return false;
+}
 
 }  // namespace
 
@@ -268,20 +282,17 @@ LightChanges FitLightChanges(const std::vector<ProbedFrame>& frames,
   LightWalk walk(seconds);
   Fit fit(frames, probes, light, reference, &walk);
   fit.Start();
-  const auto conclude = [&] {
-    changes.frames = fit.Result();
-    for (std::size_t t = 0; t < frames.size(); ++t) {
-      changes.frames[t].frame_index = frames[t].frame_index;
-      changes.frames[t].timestamp_ns = frames[t].timestamp_ns;
-    }
-    changes.changes = fit.Changes();
-  };
-  fit.Converge(false);
-  conclude();
-  // In steady light the shares of the probes cannot be told.
-  if (!changes.changes) return changes;
-  fit.Converge(true);
-  conclude();
+  fit.Converge();
+  Fit steady = fit;
+  LightWalk still = walk;
+  steady.Hold(&still);
+  changes.changes = Differ(fit.Result(), fit.Costs(), steady.Costs());
+  if (changes.changes) fit.SampleErrors();
+  changes.frames = changes.changes ? fit.Result() : steady.Result();
+  for (std::size_t t = 0; t < frames.size(); ++t) {
+    changes.frames[t].frame_index = frames[t].frame_index;
+    changes.frames[t].timestamp_ns = frames[t].timestamp_ns;
+  }
   return changes;
 }
 

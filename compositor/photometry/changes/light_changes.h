@@ -31,8 +31,8 @@ struct FrameLight {
 /// Light of a recording, frame by frame.
 struct LightChanges {
   std::vector<FrameLight> frames;  ///< In the order of the probed frames.
-  /// True if sun over sky changes by more than its uncertainty explains. Otherwise one light holds
-  /// for the whole recording, and only the exposure may change.
+  /// True if sun over sky changes, and a steady light explains the readings much worse. Otherwise
+  /// that steady light is given here, of which only the exposure changes.
   bool changes = false;
 };
 
@@ -40,14 +40,16 @@ struct LightChanges {
 ///
 /// Model, for probe i, frame t and channel c, with the light `light` of the reference frames:
 ///
-///     linear_itc = ρ_ic (a_tc (V_i direct_ic + reflected_ic) + b_tc sky_ic)
+///     linear_itc = ρ_ic (a_tc e^{κ_ic} (V_i direct_ic + reflected_ic) + b_tc sky_ic)
 ///
-/// The albedo ρ is constant in time; V is the phantoms' sun visibility, or none where unmodelled
-/// geometry shades the probe, whichever explains the probe over time. Residuals are relative and
-/// have Student's distribution. The logarithms of a and b follow random walks with heavy-tailed
-/// steps, and channels change nearly alike. `reference` are indices of frames in which a and b are
-/// 1 in the mean; they resolve the gauge of ρ. Without any, these are the frames in which shadows
-/// are deepest: those in full sun.
+/// The albedo ρ is constant in time; V is the phantoms' sun visibility, or 0 where unmodelled
+/// geometry shades the probe, whichever explains the probe over time. κ is the error of the
+/// modelled sun over sky: one of all probes with the same normal, plus the probe's own. Residuals
+/// are relative and have Student's distribution. The logarithms of a and b follow random walks with
+/// heavy-tailed steps, and channels change nearly alike. `reference` are indices of frames in which
+/// the mean logarithm of a, and that of b, is 0: ρ alone would leave their scale open. Without any,
+/// these are the frames in which shadows are deepest: those in full sun. Frames with fewer than 5
+/// readings are no reference.
 ///
 /// The model is ours; the steps of the walk follow Lange, Little & Taylor 1989 (light_walk.h).
 LightChanges FitLightChanges(const std::vector<ProbedFrame>& frames,

@@ -1,8 +1,11 @@
 #include "compositor/photometry/changes/light_equations.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <random>
+#include <type_traits>
 #include <utility>
 
 #include "base/parallel_for.h"
@@ -15,12 +18,14 @@ constexpr double kChannelSpread = 0.1;
 // Standard deviation of the modelled sun over sky that the probes of a plane have in common,
 // logarithmic: the sky is not as modelled towards the plane's side. Then that of a single channel.
 constexpr double kPlaneSpread = 0.1, kPlaneColorSpread = 0.05;
-// Precision of the condition that the light is 1 in the mean of the reference frames, and of each
-// frame's light where nothing is seen.
-constexpr double kFixed = 1e6, kAnchor = 1e-4;
+// Standard deviation of the reference frames' sun over sky, logarithmic.
+constexpr double kReferenceSpread = 0.1;
+// Precision of the condition that the mean logarithm of the reference frames' light is 0, and of
+// each frame's light where nothing is seen.
+constexpr double kGauge = 1e6, kAnchor = 1e-4;
 // Conjugate gradients: largest number of steps, and the residual's part at which they end.
-constexpr int kMaxSteps = 60;
-constexpr double kEnd = 1e-4;
+constexpr int kMaxSteps = 100;
+constexpr double kEnd = 1e-6;
 // Parts into which the probes are divided for threads. Sums over them have a fixed order, so that
 // the result is the same on any number of threads.
 constexpr std::size_t kParts = 16;
@@ -94,14 +99,15 @@ double LightUnknowns::Largest() const {
 }
 
 LightEquations::LightEquations(const std::vector<ProbeFit>& probes, const LightWalk& walk,
-                               const std::vector<std::size_t>& reference, const LightUnknowns& now,
-                               bool shares)
+                               const std::vector<std::size_t>& reference, const LightUnknowns& now)
     : probes_(probes),
       walk_(walk),
       reference_(reference),
       frame_prior_(FramePrior()),
-      plane_prior_(shares ? PlanePrior() : Eigen::Matrix3d(Eigen::Matrix3d::Identity() * kFixed)),
+      plane_prior_(PlanePrior()),
       right_(now.light.size(), now.planes.size()) {
+  const Eigen::Matrix3d ratio = Eigen::Matrix3d::Identity() / (kReferenceSpread * kReferenceSpread);
+  reference_prior_ << ratio, -ratio, -ratio, ratio;
   Contribution told = SumOver(
       probes_,
       Contribution{right_, std::vector<LogLightMatrix>(now.light.size(), LogLightMatrix::Zero()),
@@ -117,7 +123,34 @@ LightEquations::LightEquations(const std::vector<ProbeFit>& probes, const LightW
   diagonal_ = told_;
   for (LogLightMatrix& block : diagonal_) block += frame_prior_;
   plane_diagonal_ = std::move(told.planes);
+  for (const std::size_t t : reference_) diagonal_[t] += reference_prior_;
   for (PlaneError& plane : plane_diagonal_) plane += plane_prior_.diagonal();
+}
+
+void LightEquations::AddPriorNoise(std::uint32_t seed) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal;
+  const auto sample = [&](const auto& precision) {
+    using Matrix = std::decay_t<decltype(precision)>;
+    Eigen::Matrix<double, Matrix::RowsAtCompileTime, 1> noise;
+    for (double& one : noise) one = normal(random);
+    // Root of a matrix that may be singular.
+    const Eigen::SelfAdjointEigenSolver<Matrix> solver(precision);
+    const auto roots = solver.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+    return (solver.eigenvectors() * roots.cwiseProduct(noise)).eval();
+  };
+  const LogLight gauge = sample(LogLightMatrix(LogLightMatrix::Identity() * kGauge));
+  for (const std::size_t t : reference_) {
+    right_.light[t] += sample(reference_prior_) + gauge / static_cast<double>(reference_.size());
+  }
+  for (std::size_t t = 0; t < right_.light.size(); ++t) {
+    right_.light[t] += sample(frame_prior_);
+    if (t + 1 == right_.light.size()) break;
+    const LogLight step = sample(walk_.Precision(t));
+    right_.light[t] -= step;
+    right_.light[t + 1] += step;
+  }
+  for (PlaneError& plane : right_.planes) plane += sample(plane_prior_);
 }
 
 LightUnknowns LightEquations::PriorProduct(const LightUnknowns& x) const {
@@ -133,7 +166,9 @@ LightUnknowns LightEquations::PriorProduct(const LightUnknowns& x) const {
   LogLight sum = LogLight::Zero();
   for (const std::size_t t : reference_) sum += x.light[t];
   const auto count = static_cast<double>(reference_.size());
-  for (const std::size_t t : reference_) product.light[t] += sum * (kFixed / (count * count));
+  for (const std::size_t t : reference_) {
+    product.light[t] += sum * (kGauge / (count * count)) + reference_prior_ * x.light[t];
+  }
   return product;
 }
 

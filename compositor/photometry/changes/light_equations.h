@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "compositor/photometry/changes/light_walk.h"
@@ -26,20 +27,24 @@ struct LightUnknowns {
 };
 
 /// Equations of one Gauss-Newton step, around `now`. Albedos and errors of single probes are
-/// eliminated. The reference frames' light is 1 in the mean.
+/// eliminated. Unknowns are logarithms; their mean over the reference frames is 0.
 class LightEquations {
  public:
-  /// `probes` are linearized. Without `shares` the planes' errors are 0.
+  /// `probes` are linearized.
   LightEquations(const std::vector<ProbeFit>& probes, const LightWalk& walk,
-                 const std::vector<std::size_t>& reference, const LightUnknowns& now, bool shares);
+                 const std::vector<std::size_t>& reference, const LightUnknowns& now);
 
-  /// By conjugate gradients (Hestenes & Stiefel 1952), preconditioned with what frames tell where
-  /// albedos are known.
+  /// By conjugate gradients (Hestenes & Stiefel 1952), preconditioned by the matrix with
+  /// albedos held fixed.
   LightUnknowns Solve() const;
-  /// What the probes tell of each frame where albedos are known: inverse covariances, without
+  /// Adds a sample of what the right-hand side varies by because of the priors. About unknowns of 0
+  /// and with noise in the probes (ProbeFit::PutNoise()), Solve() then returns a sample of the
+  /// posterior (Papandreou & Yuille 2010).
+  void AddPriorNoise(std::uint32_t seed);
+  /// What the probes tell of each frame with albedos held fixed: inverse covariances, without
   /// priors.
   const std::vector<LogLightMatrix>& told() const { return told_; }
-  /// Covariance of each frame's light where albedos are known.
+  /// Covariance of each frame's light with albedos held fixed.
   std::vector<LogLightMatrix> Covariance() const;
 
  private:
@@ -50,7 +55,7 @@ class LightEquations {
   const std::vector<ProbeFit>& probes_;
   const LightWalk& walk_;
   const std::vector<std::size_t>& reference_;
-  LogLightMatrix frame_prior_;
+  LogLightMatrix frame_prior_, reference_prior_;
   Eigen::Matrix3d plane_prior_;
   LightUnknowns right_;
   std::vector<LogLightMatrix> told_, diagonal_;  // Diagonal blocks; with priors, too.

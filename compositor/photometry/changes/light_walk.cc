@@ -21,6 +21,8 @@ constexpr double kFreedom = 1.0;
 constexpr double kMinSeconds = 1e-3;
 
 constexpr std::size_t kSun = 1;
+// Variances of a part that may change at will, and of one that does not change.
+constexpr double kFree = 1.0, kNone = 1e-9;
 
 /// The direction in which each part moves the light.
 std::array<LogLight, 3> Directions() {
@@ -79,11 +81,23 @@ void LightWalk::Learn(const LogLight& moved, double log_sun, Step* step) {
     const double faint = k == kSun ? std::clamp(log_sun, kFaintest, kStrongest) : 0.0;
     step->parts[k] = ExpectedVariance(squares[k], step->usual[k] * std::exp(-2.0 * faint), 1.0);
   }
-  step->channels = ExpectedVariance(rest.squaredNorm(), step->usual[3], 6.0);
+  const double left =
+      6.0 * step->channels - step->channels * step->channels * step->precision.trace();
+  step->channels = ExpectedVariance(rest.squaredNorm() + std::max(0.0, left), step->usual[3], 6.0);
   SetPrecision(step);
 }
 
+void LightWalk::Hold() {
+  held_ = true;
+  for (Step& step : steps_) {
+    step.parts = {kFree, kNone, kNone};
+    step.channels = kNone;
+    SetPrecision(&step);
+  }
+}
+
 void LightWalk::Learn(const std::vector<LogLight>& light) {
+  if (held_) return;
   const auto log_sun = [&](std::size_t t) {
     return light[t].head<3>().mean() - light[t].tail<3>().mean();
   };

@@ -28,6 +28,9 @@ class LightWalk {
   /// Sets the variances to their expectation for this light (expectation maximisation).
   void Learn(const std::vector<LogLight>& light);
 
+  /// From now on the light is steady: only the exposure changes.
+  void Hold();
+
  private:
   /// Variances of one step's parts.
   struct Step {
@@ -41,6 +44,7 @@ class LightWalk {
   static void Learn(const LogLight& moved, double log_sun, Step* step);
 
   std::vector<Step> steps_;
+  bool held_ = false;
 };
 
 /// Symmetric system of equations whose frames are coupled to their neighbours alone, factorized by

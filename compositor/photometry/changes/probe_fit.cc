@@ -3,6 +3,8 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <random>
 
 #include "base/quantile.h"
 
@@ -23,8 +25,6 @@ constexpr double kShadeOdds = 3.0;
 // Rounds in which albedo and error are found for shade and for none, and readings that suffice.
 constexpr int kShadeRounds = 4;
 constexpr std::size_t kShadeReadings = 60;
-// A precision that leaves no freedom.
-constexpr double kFixed = 1e9;
 constexpr double kDarkest = 1e-6;
 
 double StudentCost(double residual, double noise) {
@@ -53,7 +53,7 @@ Lit LitBy(const std::array<LinearRgb, 2>& parts, const LogLight& factors) {
 
 void ProbeFit::Add(std::size_t frame, const std::array<float, 3>& linear) {
   ProbeReading reading;
-  reading.frame = frame;
+  reading.frame = static_cast<std::uint32_t>(frame);
   for (int c = 0; c < 3; ++c) {
     reading.log_linear[c] = static_cast<float>(std::log(std::max<double>(linear[c], kDarkest)));
   }
@@ -69,6 +69,13 @@ std::array<LinearRgb, 2> ProbeFit::Parts(const PlaneError& plane_error) const {
   return {of_sun * error, light_.sky + LinearRgb{1, 1, 1} * kDarkest};
 }
 
+double ProbeFit::SunShare() const {
+  const Lit lit = LitBy(Parts(PlaneError::Zero()), LogLight::Ones());
+  double sum = 0.0;
+  for (int c = 0; c < 3; ++c) sum += lit.sun[c] / (lit.sun[c] + lit.sky[c]);
+  return sum / 3;
+}
+
 double ProbeFit::Brightness(const ProbeReading& reading) const {
   const Lit lit = LitBy(Parts(PlaneError::Zero()), LogLight::Ones());
   double sum = 0.0;
@@ -78,11 +85,10 @@ double ProbeFit::Brightness(const ProbeReading& reading) const {
   return sum / 3;
 }
 
-void ProbeFit::SetAlbedo(const std::vector<LogLight>& factors, const std::vector<bool>& counts) {
+void ProbeFit::SetAlbedo(const std::vector<LogLight>& factors) {
   const auto parts = Parts(PlaneError::Zero());
   std::array<std::vector<double>, 3> values;
   for (const ProbeReading& reading : readings_) {
-    if (!counts[reading.frame]) continue;
     const Lit lit = LitBy(parts, factors[reading.frame]);
     for (int c = 0; c < 3; ++c) {
       values[c].push_back(reading.log_linear[c] - std::log(lit.sun[c] + lit.sky[c]));
@@ -92,7 +98,7 @@ void ProbeFit::SetAlbedo(const std::vector<LogLight>& factors, const std::vector
 }
 
 void ProbeFit::Linearize(const std::vector<LogLight>& factors, const PlaneError& plane_error,
-                         const std::vector<double>& independent, bool shares) {
+                         const std::vector<double>& independent) {
   Eigen::Matrix4d matrix = Eigen::Matrix4d::Zero();
   right_.setZero();
   double mean = 0.0;
@@ -117,9 +123,9 @@ void ProbeFit::Linearize(const std::vector<LogLight>& factors, const PlaneError&
   }
   matrix.row(3).head<3>() = matrix.col(3).head<3>().transpose();
   // Readings that are alike in all probes count less; so does what is known of each of them.
-  const double prior = shares ? mean / (kShareSpread * kShareSpread) : kFixed;
-  matrix(3, 3) += prior;
-  right_[3] -= prior * unknowns_[3];
+  prior_ = mean / (kShareSpread * kShareSpread);
+  matrix(3, 3) += prior_;
+  right_[3] -= prior_ * unknowns_[3];
   matrix.diagonal().array() += kDarkest;
   inverse_ = matrix.ldlt().solve(Eigen::Matrix4d::Identity());
 }
@@ -179,6 +185,22 @@ void ProbeFit::AddProduct(const std::vector<LogLight>& step, const PlaneError& p
   }
 }
 
+void ProbeFit::PutNoise(std::uint32_t seed) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal;
+  right_.setZero();
+  right_[3] = std::sqrt(prior_) * normal(random);
+  for (ProbeReading& reading : readings_) {
+    for (int c = 0; c < 3; ++c) {
+      const double weight = std::max<double>(reading.weight[c], kDarkest);
+      const double residual = normal(random) / std::sqrt(weight);
+      reading.residual[c] = static_cast<float>(residual);
+      right_[c] += weight * residual;
+      right_[3] += weight * reading.sun_share[c] * residual;
+    }
+  }
+}
+
 void ProbeFit::Move(const std::vector<LogLight>& step, const PlaneError& plane_step) {
   unknowns_ += inverse_ * (right_ - Gather(step, plane_step));
   unknowns_[3] = std::clamp(unknowns_[3], -kLargestShareError, kLargestShareError);
@@ -196,16 +218,21 @@ void ProbeFit::SetNoise(double usual) {
   noise_ = std::max(kMinNoise, std::sqrt(square));
 }
 
-double ProbeFit::Cost(const std::vector<LogLight>& factors, const PlaneError& plane_error) const {
+double ProbeFit::Cost(const std::vector<LogLight>& factors, const PlaneError& plane_error,
+                      const std::vector<double>& independent, std::vector<double>* by_frame) const {
   double cost = 0.5 * unknowns_[3] * unknowns_[3] / (kShareSpread * kShareSpread);
   const auto parts = Parts(plane_error);
   for (const ProbeReading& reading : readings_) {
     const Lit lit = LitBy(parts, factors[reading.frame]);
+    double sum = 0.0;
     for (int c = 0; c < 3; ++c) {
       const double light = std::log(lit.sun[c] + lit.sky[c]);
-      // Channels err alike: together they count as one reading.
-      cost += StudentCost(reading.log_linear[c] - unknowns_[c] - light, noise_) / 3;
+      sum += StudentCost(reading.log_linear[c] - unknowns_[c] - light, noise_);
     }
+    // Channels err alike: together they count as one reading.
+    sum *= independent[reading.frame] / 3;
+    cost += sum;
+    (*by_frame)[reading.frame] += sum;
   }
   return cost;
 }
@@ -225,17 +252,20 @@ void ProbeFit::DecideShade(const std::vector<LogLight>& factors, const PlaneErro
     if (shaded != shaded_) {
       probe.shaded_ = shaded;
       probe.unknowns_[3] = 0.0;
-      probe.SetAlbedo(factors, std::vector<bool>(factors.size(), true));
+      probe.SetAlbedo(factors);
     }
     for (int i = 0; i < kShadeRounds; ++i) {
-      probe.Linearize(factors, plane_error, independent, true);
+      probe.Linearize(factors, plane_error, independent);
       probe.Move(still, PlaneError::Zero());
     }
     return probe;
   };
   const ProbeFit sunlit = fitted(false), shaded = fitted(true);
-  const bool better =
-      shaded.Cost(factors, plane_error) + kShadeOdds < sunlit.Cost(factors, plane_error);
+  const auto cost = [&](const ProbeFit& probe) {
+    std::vector<double> by_frame(factors.size(), 0.0);
+    return probe.Cost(factors, plane_error, independent, &by_frame);
+  };
+  const bool better = cost(shaded) + kShadeOdds < cost(sunlit);
   shaded_ = better;
   unknowns_ = better ? shaded.unknowns_ : sunlit.unknowns_;
 }

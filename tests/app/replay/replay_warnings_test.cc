@@ -75,9 +75,9 @@ TEST(LightWarnings, ReportWhatTheLightCannotBe) {
   light.measured.sun_to_sky_stated = 4.0;
   EXPECT_THAT(LightWarnings(light), IsEmpty());
   light.measured = {};
-  light.exposure_scale_change = 2.5;
+  light.exposures.change = 2.5;
   EXPECT_THAT(LightWarnings(light), ElementsAre(HasSubstr("changed by a factor of 2.5")));
-  light.exposure_scale_change = 1.1;
+  light.exposures.change = 1.1;
   light.sun.elevation = FromDegrees(-5);
   EXPECT_THAT(LightWarnings(light), IsEmpty());
   light.sun.elevation = FromDegrees(-12);

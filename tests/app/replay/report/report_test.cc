@@ -112,7 +112,7 @@ session::LightSummary MeasuredSummary() {
   light.sky_horizontal_lux = 12700.0;
   light.exposure_scale = {3e-5, 2.5e-5, 2e-5};
   light.exposure_scale_error = {0.011, 0.022, 0.033};
-  light.exposure_scale_change = 1.25;
+  light.exposures.change = 1.25;
   light.exposures.estimates = 40;
   light.exposures.dappled = 10;
   light.marker_sunlit_share = 0.625;

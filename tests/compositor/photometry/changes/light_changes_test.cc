@@ -37,7 +37,8 @@ using Disturb = std::function<void(int frame, RgbImage*)>;
 
 /// Films the yard and fits its light. The first two frames are the reference.
 LightChanges Follow(const std::function<Moment(int)>& moment, PhotographedYard::Light light = {},
-                    const Disturb& disturb = {}, std::size_t max_readings = 100'000) {
+                    const Disturb& disturb = {}, std::size_t max_readings = 100'000,
+                    const std::function<void(std::vector<ProbedFrame>*)>& spoil = {}) {
   const PhotographedYard& yard = Yard();
   LightProbes probes(yard.phantoms(), yard.camera(), {}, max_readings);
   for (int frame = 0; frame < kFrames; ++frame) {
@@ -55,7 +56,9 @@ LightChanges Follow(const std::function<Moment(int)>& moment, PhotographedYard::
   EXPECT_LE(readings, max_readings);
   const auto lights =
       LightOn(probes.probes(), yard.phantoms(), yard.model(), yard.marker_from_world());
-  return FitLightChanges(probes.frames(), probes.probes(), lights, {0, 1});
+  auto frames = probes.frames();
+  if (spoil) spoil(&frames);
+  return FitLightChanges(frames, probes.probes(), lights, {0, 1});
 }
 
 struct Errors {
@@ -104,6 +107,46 @@ TEST(LightChanges, FollowACloud) {
 
 TEST(LightChanges, FollowACloudByAPartOfTheReadings) {
   ExpectFollowed(Follow(UnderACloud, {}, {}, 3000), UnderACloud);
+}
+
+TEST(LightChanges, FollowACloudWhoseReferenceFramesAreNearlyCovered) {
+  // Of one reference frame three readings are left, all wrong: they say nothing of the others.
+  const auto cover = [](std::vector<ProbedFrame>* frames) {
+    ProbedFrame& first = frames->front();
+    first.probes.resize(3);
+    first.linear.assign(3, {0.01F, 0.01F, 0.01F});
+  };
+  const LightChanges found = Follow(UnderACloud, {}, {}, 100'000, cover);
+  EXPECT_TRUE(found.changes);
+  for (const int frame : {1, 8, 16}) {
+    const Moment now = UnderACloud(frame);
+    EXPECT_NEAR(MeanLog(found.frames[frame].sun), std::log(now.sun), 0.1) << frame;
+    EXPECT_NEAR(MeanLog(found.frames[frame].sky), std::log(now.sky), 0.05) << frame;
+  }
+}
+
+TEST(LightChanges, FollowACloudOverACameraThatMovesOn) {
+  // Each probe is seen for six frames.
+  const auto pan = [](std::vector<ProbedFrame>* frames) {
+    for (std::size_t t = 0; t < frames->size(); ++t) {
+      ProbedFrame& frame = (*frames)[t];
+      std::size_t kept = 0;
+      for (std::size_t k = 0; k < frame.probes.size(); ++k) {
+        const std::size_t first_seen = frame.probes[k] * 7 % (kFrames + 5);
+        if (t + 5 < first_seen || t > first_seen) continue;
+        frame.probes[kept] = frame.probes[k];
+        frame.linear[kept++] = frame.linear[k];
+      }
+      frame.probes.resize(kept);
+      frame.linear.resize(kept);
+    }
+  };
+  const LightChanges found = Follow(UnderACloud, {}, {}, 100'000, pan);
+  EXPECT_LE(ErrorsOf(found, UnderACloud).largest, 0.3);
+  // Errors add up from surface to surface.
+  const LightChanges unmoved = Follow(UnderACloud);
+  EXPECT_GE(found.frames.back().log_ratio_error, 2 * unmoved.frames.back().log_ratio_error);
+  EXPECT_FALSE(Follow([](int) { return Moment{}; }, {}, {}, 100'000, pan).changes);
 }
 
 TEST(LightChanges, FollowACloudThatTheExposureFollows) {
