@@ -358,7 +358,7 @@ def snow(random, frames, size):
     place, side = begun(random, "snow", ((45, 60), (1, 3)), (14, 32), sky, -0.004, 0.45)
     z = place.ground_z
     white = random.uniform(0.74, 0.86) * np.array([0.99, 1.0, 1.02])
-    cover = patterns.plain("snow", random, white, 2.0, 0.02, 0.004, 1.4)
+    cover = patterns.plain("snow", random, white, 2.0, 0.02, 0.0008, 1.4)
     wood = patterns.boards("wood", random, (0.26, 0.17, 0.1), 6, 0.8)
     stone = patterns.plain("stone", random, (0.36, 0.34, 0.31), 1.0, 0.09)
     red = patterns.flat("post", (0.4, 0.04, 0.03))
