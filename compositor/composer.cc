@@ -97,6 +97,7 @@ class GlComposer : public Composer {
   }
   Result<void> SetLight(const std::vector<LitMesh>& lit, const sky::SkyModel& day,
                         const Mat3& marker_from_world, LinearRgb from_below) override;
+  Result<void> SetResponse(const CameraResponse& response) override;
   Result<void> SetLightMix(const std::vector<LitMesh>& lit, const LightMix& mix) override;
   void SetSun(const sky::SkyModel& day, const Mat3& marker_from_world) override;
   Result<RgbImage> Compose(ImageView<const std::uint8_t> rgb,
@@ -248,6 +249,12 @@ Result<void> GlComposer::SetLight(const std::vector<LitMesh>& lit, const sky::Sk
     sky_.environment.UploadLayer(level, GL_RGB, GL_FLOAT, map.levels[level].data());
   }
   return {};
+}
+
+Result<void> GlComposer::SetResponse(const CameraResponse& response) {
+  ComposerOptions options = options_;
+  options.response = response;
+  return SetOptions(options);
 }
 
 Result<void> GlComposer::SetLightMix(const std::vector<LitMesh>& lit, const LightMix& mix) {

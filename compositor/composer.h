@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/camera_model.h"
+#include "base/camera_response.h"
 #include "base/error.h"
 #include "base/frames.h"
 #include "base/image.h"
@@ -33,6 +34,9 @@ class Composer {
 
   /// Uses other options for the next images; rebuilds only what they change. Errors as Create().
   virtual Result<void> SetOptions(const ComposerOptions& options) = 0;
+
+  /// Uses another camera response for the next images. Errors as Create().
+  virtual Result<void> SetResponse(const CameraResponse& response) = 0;
 
   /// Moves a placed model relative to its position in the baked lighting: x' = linear x +
   /// translation. The light on it and around it stays the same until SetLight().

@@ -24,23 +24,34 @@ void LightFollower::Add(ImageView<const std::uint8_t> rgb, const Transform<Camer
 
 void LightFollower::Fit(const sky::SkyModel& day, const Mat3& marker_from_world,
                         const std::set<std::int64_t>& reference) {
-  const auto lights = compositor::LightOn(probes_.probes(), phantoms_, day, marker_from_world);
+  lights_ = compositor::LightOn(probes_.probes(), phantoms_, day, marker_from_world);
+  to_sun_ = Normalized(marker_from_world * day.ToSun().xyz);
   std::vector<std::size_t> indices;
   const auto& frames = probes_.frames();
   for (std::size_t i = 0; i < frames.size(); ++i) {
     if (reference.contains(frames[i].frame_index)) indices.push_back(i);
   }
-  changes_ = compositor::FitLightChanges(frames, probes_.probes(), lights, indices);
+  changes_ = compositor::FitLightChanges(frames, probes_.probes(), lights_, indices);
   sun_on_marker_ = sky_on_marker_ = {};
   for (std::size_t i = 0; i < probes_.probes().size(); ++i) {
     const Vec3 p = probes_.probes()[i].point.xyz;
     if (2.0 * std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)}) > marker_.board_size_m) {
       continue;
     }
-    const auto& light = lights[i];
+    const auto& light = lights_[i];
     sun_on_marker_ = sun_on_marker_ + light.direct * light.sun_visibility + light.reflected;
     sky_on_marker_ = sky_on_marker_ + light.sky;
   }
+}
+
+compositor::ResponseEstimate LightFollower::EstimateResponse(
+    const std::set<std::int64_t>& frames) const {
+  std::vector<std::size_t> indices;
+  for (std::size_t i = 0; i < probes_.frames().size(); ++i) {
+    if (frames.contains(probes_.frames()[i].frame_index)) indices.push_back(i);
+  }
+  return compositor::FitResponse(compositor::CollectResponseChart(
+      probes_.frames(), indices, probes_.probes(), lights_, phantoms_, to_sun_));
 }
 
 std::set<std::int64_t> LightFollower::FramesInFullSun() const {

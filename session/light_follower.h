@@ -14,6 +14,7 @@
 #include "compositor/light/phantom_rays.h"
 #include "compositor/photometry/changes/light_changes.h"
 #include "compositor/photometry/changes/light_probes.h"
+#include "compositor/photometry/response/response_fit.h"
 #include "scene/marker_reflectance.h"
 #include "sky/sky_model.h"
 
@@ -48,6 +49,11 @@ class LightFollower {
   void Fit(const sky::SkyModel& day, const Mat3& marker_from_world,
            const std::set<std::int64_t>& reference);
 
+  /// Estimates the camera's response from some of the fitted frames, if they were decoded as sRGB.
+  compositor::ResponseEstimate EstimateResponse(const std::set<std::int64_t>& frames) const;
+  /// Decodes all frames by another response, for further fits.
+  void SetResponse(const CameraResponse& response) { probes_.SetResponse(response); }
+
   /// True if the last fit saw sun over sky change.
   bool changes() const { return changes_.changes; }
   /// All frames of the last fit.
@@ -63,7 +69,9 @@ class LightFollower {
   compositor::LightProbes probes_;
   scene::MarkerReflectance marker_;
   compositor::LightChanges changes_;
-  LinearRgb sun_on_marker_, sky_on_marker_;  // Of the last fit's light.
+  std::vector<compositor::ProbeLight> lights_;  // Of the last fit.
+  Vec3 to_sun_;                                 // The same, marker coordinates.
+  LinearRgb sun_on_marker_, sky_on_marker_;     // Of the last fit's light.
 };
 
 }  // namespace pleinair::session

@@ -13,6 +13,9 @@ enum class LightChangeMode {
   kHold,    ///< One light for the whole recording; only the exposure may change.
 };
 
+/// In place of the name of a response file.
+inline constexpr const char* kSrgbResponse = "srgb";
+
 /// User options for the light and the camera image, for recordings and live sessions.
 struct LightOptions {
   compositor::LightOverrides overrides;
@@ -20,8 +23,9 @@ struct LightOptions {
   bool match_look = true;  ///< Drawn pixels receive the frames' blur and noise.
   /// Objects that cover the marker are in front of the virtual objects.
   bool hands_in_front = false;
-  std::filesystem::path camera_response;  ///< Overrides the scene's; empty: as in the scene.
-  std::filesystem::path cache;            ///< Folder for daylight coefficients; empty: no cache.
+  /// Overrides the scene's; empty: as in the scene. kSrgbResponse: sRGB, whatever the frames show.
+  std::filesystem::path camera_response;
+  std::filesystem::path cache;  ///< Folder for daylight coefficients; empty: no cache.
   int sky_division = 1;  ///< Subdivision of Tregenza's patches: compositor::CoefficientOptions.
   double convergence = 0.01;  ///< compositor::CoefficientOptions.
 };

@@ -28,6 +28,20 @@ struct ExposureHistory {
   double change = 1.0;  ///< See ExposureFilter::Change().
 };
 
+/// What the frames show of the camera's response (compositor/photometry/response/response_fit.h).
+struct ResponseSummary {
+  /// kSrgb: the frames do not contradict it strongly.
+  enum class Source { kSrgb, kMeasured, kStated };
+  Source source = Source::kSrgb;
+  /// Logarithm of the evidence for another curve over that for sRGB; 0 where nothing shows it.
+  double log_evidence = 0.0;
+  /// Standard deviation of the logarithm of light beside that of the marker's white; 0 where
+  /// nothing shows it.
+  double log_error = 0.0;
+
+  bool IsShown() const { return log_error > 0.0; }
+};
+
 /// Light of a frame: sun, sky and exposure.
 struct LightSummary {
   sky::SunPosition sun;
@@ -46,6 +60,7 @@ struct LightSummary {
   /// Blur and noise of the last frames. Empty where they are not matched or cannot be measured.
   std::optional<compositor::CameraLook> look;
   compositor::MeasuredLight measured;  ///< Sun, sky and heading.
+  ResponseSummary response;
 };
 
 /// Share of the exposure estimates in which leaves shade the marker; 0 without any.

@@ -93,7 +93,7 @@ std::vector<TrackedFrame> Pipeline::Measure(std::span<FoundFrame> found) {
 }
 
 void Pipeline::ProbeLight(const devices::Frame& last_tracked) {
-  if (!follows_light_ || !renderer_->DrawsObjects()) return;
+  if (!renderer_->DrawsObjects()) return;
   const std::optional<CameraPose> pose = PoseIn(last_tracked);
   if (!pose) return;
   const ImageView<const std::uint8_t> rgb = last_tracked.rgb.view();
@@ -159,7 +159,7 @@ Result<ComposedFrame> Pipeline::Compose(ImageView<const std::uint8_t> rgb,
 
 FollowedLight Pipeline::FollowedIn(std::int64_t frame_index) const {
   const LightFollower* follower = renderer_->light_follower();
-  return follower != nullptr ? follower->Of(frame_index) : FollowedLight{};
+  return follows_light_ && follower != nullptr ? follower->Of(frame_index) : FollowedLight{};
 }
 
 UtcTime Pipeline::MomentOf(std::int64_t timestamp_ns) const {

@@ -129,6 +129,9 @@ class Pipeline {
   /// stamp, nanoseconds since the start of the recording.
   UtcTime MomentOf(std::int64_t timestamp_ns) const;
 
+  /// True if sun and sky are followed from frame to frame.
+  bool FollowsLight() const { return follows_light_; }
+
   const scene::SceneDescription& scene() const { return scene_; }
   /// The lens of composed images.
   const CameraModel& output_camera() const { return output_camera_; }

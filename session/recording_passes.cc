@@ -86,20 +86,24 @@ void FollowLight(Pipeline& pipeline, const std::vector<Observation>& path,
 
 bool LightChanges(Pipeline& pipeline) {
   const LightFollower* follower = pipeline.renderer().light_follower();
-  return follower != nullptr && follower->changes();
+  return pipeline.FollowsLight() && follower != nullptr && follower->changes();
 }
 
 /// The frames with a pose in which no cloud takes the sun. The light of the recording is estimated
 /// from them, as if it were constant.
 std::vector<Observation> PathInFullSun(Pipeline& pipeline) {
   std::vector<Observation> path = PathOf(pipeline);
-  const std::vector<std::size_t> chosen = LightFrames(path);
-  if (chosen.empty()) return path;
-  FollowLight(pipeline, path, chosen, {});
   if (!LightChanges(pipeline)) return path;
   const std::set<std::int64_t> sunny = pipeline.renderer().light_follower()->FramesInFullSun();
   std::erase_if(path, [&](const Observation& at) { return !sunny.contains(at.frame_index); });
   return path;
+}
+
+std::set<std::int64_t> FramesOf(const std::vector<Observation>& path,
+                                const std::vector<std::size_t>& chosen) {
+  std::set<std::int64_t> frames;
+  for (const std::size_t i : chosen) frames.insert(path[i].frame_index);
+  return frames;
 }
 
 void AddTimes(const ComposedFrame& composed, StageTimes* times) {
@@ -152,11 +156,26 @@ Result<void> TrackRecording(Pipeline& pipeline, devices::Recording recording,
   return {};
 }
 
+Result<void> EstimateResponse(Pipeline& pipeline) {
+  const std::vector<Observation> all = PathOf(pipeline);
+  const std::vector<std::size_t> first = LightFrames(all);
+  if (first.empty() || pipeline.renderer().light_follower() == nullptr) return {};
+  FollowLight(pipeline, all, first, {});
+  const std::vector<Observation> path = PathInFullSun(pipeline);
+  PLEINAIR_RETURN_IF_ERROR(pipeline.renderer().EstimateResponse(FramesOf(path, LightFrames(path))));
+  // By another response the frames show other light.
+  if (pipeline.renderer().light().response.source == ResponseSummary::Source::kMeasured) {
+    FollowLight(pipeline, all, first, {});
+  }
+  return {};
+}
+
 Result<void> EstimateLight(Pipeline& pipeline, devices::Recording recording,
                            const PassMonitor& monitor) {
   Pass pass(monitor);
-  const std::vector<Observation> path =
-      pass.times().Measure("follow light", [&] { return PathInFullSun(pipeline); });
+  PLEINAIR_RETURN_IF_ERROR(
+      pass.times().Measure("follow light", [&] { return EstimateResponse(pipeline); }));
+  const std::vector<Observation> path = PathInFullSun(pipeline);
   const std::vector<std::size_t> chosen = LightFrames(path);
   if (chosen.empty() || !pipeline.renderer().CanMeasureLight()) return {};
   pipeline.MeterLightOn(*pipeline.tracks().ReferenceMarker());
@@ -186,9 +205,7 @@ Result<void> EstimateLight(Pipeline& pipeline, devices::Recording recording,
     return 0;
   });
   pass.times().Measure("follow light", [&] {
-    std::set<std::int64_t> reference;
-    for (const std::size_t i : chosen) reference.insert(path[i].frame_index);
-    if (LightChanges(pipeline)) FollowLight(pipeline, path, chosen, reference);
+    if (LightChanges(pipeline)) FollowLight(pipeline, path, chosen, FramesOf(path, chosen));
     return 0;
   });
   return {};

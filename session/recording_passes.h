@@ -37,6 +37,10 @@ using ComposedFrameCallback = std::function<Result<void>(const devices::Frame&, 
 Result<void> TrackRecording(Pipeline& pipeline, devices::Recording recording,
                             const TrackedFrameCallback& take = {}, const PassMonitor& monitor = {});
 
+/// Estimates the camera's response from the frames of TrackRecording(), and uses it from then on if
+/// they contradict sRGB strongly (SceneRenderer::EstimateResponse()). EstimateLight() does so, too.
+Result<void> EstimateResponse(Pipeline& pipeline);
+
 /// Second pass: estimates heading, sun and sky from at most eight frames (LightFrames). Does
 /// nothing if no frame has a pose or the scene has no phantoms. Errors: an unreadable frame, the
 /// errors of the monitor.

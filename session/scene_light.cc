@@ -60,6 +60,14 @@ void SceneLight::Follow(const scene::SceneDescription& scene, UtcTime time,
                  scene::MarkerFromWorld(scene.marker), reference);
 }
 
+std::optional<compositor::ResponseEstimate> SceneLight::EstimateResponse(
+    const std::set<std::int64_t>& frames) {
+  if (!follower_) return std::nullopt;
+  compositor::ResponseEstimate found = follower_->EstimateResponse(frames);
+  if (found.conclusive) follower_->SetResponse(found.response);
+  return found;
+}
+
 void SceneLight::Override(const scene::SceneDescription& scene, const sky::SunPosition& sun,
                           compositor::MeasuredLight* measured) {
   measured->sun_to_sky_stated =

@@ -55,6 +55,10 @@ class SceneLight {
   /// described sun lights the scene, afterwards the estimated light.
   void Follow(const scene::SceneDescription& scene, UtcTime time,
               const std::set<std::int64_t>& reference);
+  /// As LightFollower::EstimateResponse(); a found response decodes the probed frames from then on.
+  /// Nothing if no frame was probed.
+  std::optional<compositor::ResponseEstimate> EstimateResponse(
+      const std::set<std::int64_t>& frames);
   /// Null if no frame was probed.
   const LightFollower* follower() const { return follower_ ? &*follower_ : nullptr; }
 

@@ -74,6 +74,9 @@ Result<std::unique_ptr<SceneRenderer>> SceneRenderer::Create(
   if (scene.objects.empty()) return renderer;
   compositor::ComposerOptions composing = options;
   if (!scene.camera_response.empty()) {
+    renderer->summary_.response.source = ResponseSummary::Source::kStated;
+  }
+  if (!scene.camera_response.empty() && scene.camera_response != kSrgbResponse) {
     PLEINAIR_ASSIGN_OR_RETURN(composing.response,
                               devices::ReadCameraResponse(scene.camera_response));
     renderer->response_ = composing.response;
@@ -115,6 +118,18 @@ void SceneRenderer::ProbeLight(ImageView<const std::uint8_t> rgb, const CameraMo
 
 void SceneRenderer::FollowLight(UtcTime time, const std::set<std::int64_t>& reference) {
   if (light_) light_->Follow(scene_, time, reference);
+}
+
+Result<void> SceneRenderer::EstimateResponse(const std::set<std::int64_t>& frames) {
+  using Source = ResponseSummary::Source;
+  if (!light_ || summary_.response.source == Source::kStated) return {};
+  const auto found = light_->EstimateResponse(frames);
+  if (!found || !found->usable) return {};
+  summary_.response = {found->conclusive ? Source::kMeasured : Source::kSrgb, found->log_evidence,
+                       found->log_error};
+  if (!found->conclusive) return {};
+  response_ = found->response;
+  return composer_->SetResponse(response_);
 }
 
 void SceneRenderer::EstimateLight() {

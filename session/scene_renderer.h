@@ -66,6 +66,10 @@ class SceneRenderer {
                   std::int64_t timestamp_ns, const scene::MarkerReflectance& marker_reflectance);
   /// As SceneLight::Follow(), for all further frames.
   void FollowLight(UtcTime time, const std::set<std::int64_t>& reference);
+  /// Estimates the camera's response from probed frames, after FollowLight(), and uses it from now
+  /// on if the frames contradict sRGB strongly. A response of scene or options stays. Errors:
+  /// no memory on the graphics card.
+  Result<void> EstimateResponse(const std::set<std::int64_t>& frames);
   /// Null if no frame was probed.
   const LightFollower* light_follower() const { return light_ ? light_->follower() : nullptr; }
 
@@ -92,7 +96,7 @@ class SceneRenderer {
   /// once, the rest with the next light.
   Result<void> Edit(const SceneEdit& edit);
 
-  /// Response of the camera, as in the scene.
+  /// Response of the camera: as in the scene, estimated, or sRGB.
   const CameraResponse& response() const { return response_; }
 
   /// Releases the OpenGL context, so that another thread can draw.

@@ -20,6 +20,7 @@ constexpr const char* kExamples =
     "  pleinair detect photo.jpg --calibration camera.yaml --size-mm 140\n"
     "  pleinair marker 17 -o marker.pdf\n"
     "  pleinair calibrate --charuco 8x6 photos/ -o camera.json\n"
+    "  pleinair response my_recording -o camera.response\n"
     "  pleinair target poster.jpg --width-mm 420 -o poster.target\n"
     "  pleinair path convert out/demo/poses/sg_17.tum path.glb --calibration camera.json\n"
     "  pleinair sun --at 50.0875,14.4213 --time 2025-09-14T11:05:00Z\n"
@@ -78,6 +79,7 @@ int RunCommandLine(int argc, const char* const* argv) {
     AddBoardCommand(app, result);
     AddPathCommand(app, result);
     AddCalibrateCommand(app, result);
+    AddResponseCommand(app, result);
     AddSunCommand(app, result);
     AddSkyCommand(app, result);
     AddAccuracyCommand(app, result);

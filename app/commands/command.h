@@ -29,6 +29,7 @@ void AddTargetCommand(CLI::App& app, CommandResult& result);
 void AddBoardCommand(CLI::App& app, CommandResult& result);
 void AddPathCommand(CLI::App& app, CommandResult& result);
 void AddCalibrateCommand(CLI::App& app, CommandResult& result);
+void AddResponseCommand(CLI::App& app, CommandResult& result);
 void AddSunCommand(CLI::App& app, CommandResult& result);
 void AddSkyCommand(CLI::App& app, CommandResult& result);
 void AddAccuracyCommand(CLI::App& app, CommandResult& result);

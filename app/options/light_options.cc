@@ -13,7 +13,8 @@ namespace pleinair::app {
 void AddLightOptions(CLI::App& command, session::LightOptions& options) {
   command.add_option(
       "--response", options.camera_response,
-      "Response of the camera (docs/guide/reference/recordings.md) instead of the scene's or sRGB");
+      "Response of the camera: a file (docs/guide/reference/calibrations.md), or srgb; instead of "
+      "the scene's, or of what the frames show");
   command
       .add_option_function<std::string>(
           "--light",

@@ -140,6 +140,13 @@ std::vector<std::string> LightWarnings(const session::LightSummary& summary,
                     "parts one by one, or film with locked exposure.",
                     summary.exposures.change));
   }
+  if (summary.response.source == session::ResponseSummary::Source::kMeasured) {
+    warnings.push_back(
+        fmt::format("The camera does not encode light as sRGB: its response was estimated from the "
+                    "frames, light within {:.0f} %. 'pleinair response' writes it to a file for "
+                    "--response; --response srgb keeps sRGB.",
+                    100 * summary.response.log_error));
+  }
   const double elevation_deg = ToDegrees(summary.sun.elevation);
   if (elevation_deg < kNightDeg) {
     warnings.push_back(

@@ -1,5 +1,7 @@
 #include "devices/calibration/response_file.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -113,6 +115,39 @@ Result<CameraResponse> ReadCameraResponse(const std::filesystem::path& file) {
                        "give the exponent from pixel value to light, 0.2 to 5; 2.2 is usual");
   }
   return PowerResponse(*gamma);
+}
+
+std::string CameraResponseText(const CameraResponse& response) {
+  if (response.IsSrgb()) return "{\"response\": \"srgb\"}\n";
+  constexpr int kStep = 5, kLast = 255;  // 255 is a multiple of 5.
+  // Samples that rise less would be refused.
+  constexpr double kMinRise = 1e-5;
+  const auto light = [&](int code, int c) {
+    return code == 0 ? 0.0 : code == kLast ? 1.0 : static_cast<double>(response.Linear(c)[code]);
+  };
+  const auto rises = [&](int from, int to) {
+    return light(to, 0) - light(from, 0) > kMinRise && light(to, 1) - light(from, 1) > kMinRise &&
+           light(to, 2) - light(from, 2) > kMinRise;
+  };
+  std::vector<int> codes{0};
+  for (int code = kStep; code < kLast; code += kStep) {
+    if (rises(codes.back(), code) && rises(code, kLast)) codes.push_back(code);
+  }
+  codes.push_back(kLast);
+  const auto list = [&](const auto& value) {
+    std::string text;
+    for (const int code : codes)
+      text += fmt::format("{}{:.6g}", text.empty() ? "" : ", ", value(code));
+    return text;
+  };
+  std::string text = "{\"response\": \"samples\",\n \"encoded\": [" +
+                     list([](int code) { return code / 255.0; }) + "]";
+  constexpr std::array<const char*, 3> kChannels{"red", "green", "blue"};
+  for (int c = 0; c < 3; ++c) {
+    text += fmt::format(",\n \"{}\": [{}]", kChannels[c],
+                        list([&](int code) { return light(code, c); }));
+  }
+  return text + "}\n";
 }
 
 }  // namespace pleinair::devices

@@ -166,6 +166,18 @@ std::string ExposureScaleCard(const session::LightSummary& light) {
                                  light.exposures.estimates, light.exposures.change));
 }
 
+/// The camera's response and its source.
+std::string ResponseCard(const session::ResponseSummary& response) {
+  using Source = session::ResponseSummary::Source;
+  if (response.source == Source::kStated) return Card("given", "camera response, by the user");
+  if (response.source == Source::kSrgb) {
+    return Card("sRGB", response.IsShown() ? "camera response: the frames do not contradict it"
+                                           : "camera response: the frames do not show it");
+  }
+  return Card(fmt::format("± {:.0f} %", 100 * response.log_error),
+              "light by the camera response that the frames show; it is not sRGB");
+}
+
 /// Whether the sun reaches the marker; empty if the marker gave no exposure estimate.
 std::string MarkerCard(const session::LightSummary& light) {
   if (light.exposures.estimates == 0) return "";
@@ -195,6 +207,7 @@ std::string Light(const ReplayReport& report) {
   html += MeasuredCards(light.measured);
   html += MarkerCard(light);
   html += ExposureScaleCard(light);
+  html += ResponseCard(light.response);
   if (light.look) {
     html += Card(fmt::format("{:.2f} px / {:.1f} ‰", light.look->blur_px,
                              1000 * light.look->NoiseSigma(1, session::kMediumLight)),

@@ -82,6 +82,15 @@ Json MeasuredJson(const compositor::MeasuredLight& light) {
           {"open_sun_over_brightest_of_print", Rounded(light.marker_shade)}};
 }
 
+Json ResponseJson(const session::ResponseSummary& response) {
+  using Source = session::ResponseSummary::Source;
+  const char* from = response.source == Source::kMeasured ? "measured" : "srgb";
+  if (response.source == Source::kStated) from = "stated";
+  return {{"from", from},
+          {"evidence_log", Rounded(response.log_evidence)},
+          {"light_relative_error", IfKnown(response.IsShown(), response.log_error)}};
+}
+
 /// Noise as its standard deviation at medium brightness, in thousandths of the maximum value.
 Json LookJson(const compositor::CameraLook& look) {
   Json noise;
@@ -111,6 +120,7 @@ Json LightJson(const session::LightSummary& light) {
           {"marker_in_sun", IfKnown(may_be_lit, light.marker_sunlit_share)},
           {"marker_dappled", IfKnown(light.exposures.estimates > 0, session::DappledShare(light))},
           {"look", light.look ? LookJson(*light.look) : Json()},
+          {"camera_response", ResponseJson(light.response)},
           {"measured", MeasuredJson(light.measured)}};
 }
 

@@ -18,9 +18,11 @@ constexpr std::size_t kMaxProbes = 4000;
 // Pixel values beyond which a value is clipped or mostly noise.
 constexpr int kClippedCode = 250, kDarkCode = 5;
 // Half the edge of the square over which a probe averages, pixels.
-constexpr double kReach_px = 1.0;
+constexpr double kReach_px = 1.0, kReachInBand_px = 0.25;  // The black band is narrow.
 // Cosine between line of sight and normal below which a footprint is too long.
 constexpr double kGrazing = 0.1;
+// Width of the marker's black band below which the white around it brightens its middle.
+constexpr double kMinBand_px = 4.5;
 constexpr double kMargin_m = 0.02;  // Around the marker's white margin.
 constexpr int kMarkerProbesPerSide = 8;
 constexpr std::uint32_t kPaths = 256;
@@ -34,36 +36,53 @@ LightProbes::LightProbes(const PhantomRays& phantoms, const CameraModel& camera,
     : phantoms_(phantoms), camera_(camera), response_(response), max_readings_(max_readings) {}
 
 void LightProbes::AddMarker(const scene::MarkerReflectance& marker) {
-  // The middle of the white margin, or of the quiet zone.
+  // The middle of the white margin, or of the quiet zone, and that of the black band.
   const double half = marker.size_m / 2;
   const double margin_m = (marker.board_size_m - marker.size_m) / 2;
   const double outwards = (margin_m > 0.0 ? margin_m : marker.black_band_m) / 2;
+  const LinearRgb white = LinearRgb{1, 1, 1} * marker.albedo_white;
+  const LinearRgb black = LinearRgb{1, 1, 1} * marker.albedo_black;
   for (int side = 0; side < 4; ++side) {
     const double c = std::array{1.0, 0.0, -1.0, 0.0}[side];
     const double s = std::array{0.0, 1.0, 0.0, -1.0}[side];
     for (int i = 0; i < kMarkerProbesPerSide; ++i) {
       const double x = half * (2.0 * (i + 0.5) / kMarkerProbesPerSide - 1.0);
-      const double y = half + outwards;
-      probes_.push_back({{{c * x - s * y, s * x + c * y, 0.0}}, {0.0, 0.0, 1.0}});
+      const auto add = [&](double along, double y, int surface, LinearRgb albedo, double width_m) {
+        probes_.push_back({{{c * along - s * y, s * along + c * y, 0.0}},
+                           {0.0, 0.0, 1.0},
+                           surface,
+                           albedo,
+                           width_m});
+      };
+      add(x, half + outwards, kMarkerWhite, white, 0.0);
+      if (marker.black_band_m <= 0.0) continue;
+      const double inside = half - marker.black_band_m / 2;
+      add(x * inside / half, inside, kMarkerBlack, black, marker.black_band_m);
     }
   }
 }
 
 bool LightProbes::Observe(ImageView<const std::uint8_t> rgb, const Transform<Camera, Marker>& pose,
                           std::uint32_t probe, Vec2* pixel, ProbedFrame* frame) const {
-  const auto& [point, normal] = probes_[probe];
+  const Point<Marker>& point = probes_[probe].point;
+  const Vec3 normal = probes_[probe].normal;
   const Point<Camera> in_camera = pose * point;
   const Vec3 eye = pose.Inverse().translation_m;
   const Vec3 to_eye = eye - point.xyz;
   const double distance = Norm(to_eye);
   if (in_camera.xyz.z <= 0.0 || Dot(normal, to_eye) < kGrazing * distance) return false;
   *pixel = ProjectToPixel(camera_, in_camera);
-  if (!Keeps(probe, frames_.size())) {
+  const double footprint_m = distance / std::max(1.0, std::min(camera_.fx, camera_.fy));
+  const double width_m = probes_[probe].width_m;
+  const double seen_m = width_m * Dot(normal, to_eye) / distance;
+  const bool blurred = width_m > 0.0 && seen_m < kMinBand_px * footprint_m;
+  if (blurred || !Keeps(probe, frames_.size())) {
     return pixel->x >= 0.0 && pixel->y >= 0.0 && pixel->x < rgb.width() && pixel->y < rgb.height();
   }
   std::array<double, 3> sum{};
   for (int i = 0; i < 4; ++i) {
-    const Vec2 aside{(i & 1) == 0 ? -kReach_px : kReach_px, (i & 2) == 0 ? -kReach_px : kReach_px};
+    const double reach_px = width_m > 0.0 ? kReachInBand_px : kReach_px;
+    const Vec2 aside{(i & 1) == 0 ? -reach_px : reach_px, (i & 2) == 0 ? -reach_px : reach_px};
     const auto linear = SampleLinear(rgb, *pixel + aside, response_);
     if (!linear) return false;
     for (int c = 0; c < 3; ++c) {
@@ -72,7 +91,6 @@ bool LightProbes::Observe(ImageView<const std::uint8_t> rgb, const Transform<Cam
       sum[c] += (*linear)[c] / 4;
     }
   }
-  const double footprint_m = distance / std::max(1.0, std::min(camera_.fx, camera_.fy));
   const auto seen = phantoms_.First({eye}, to_eye * (-1.0 / distance));
   if (seen && Norm(seen->point.xyz - eye) < distance - 3 * footprint_m - 0.01) return true;
   frame->probes.push_back(probe);
@@ -108,13 +126,41 @@ void LightProbes::AddFrame(ImageView<const std::uint8_t> rgb, const Transform<Ca
     if (!seen || seen->is_foliage) continue;
     const Vec3 p = seen->point.xyz;
     if (std::max({std::fabs(p.x), std::fabs(p.y), 4 * std::fabs(p.z)}) < half) continue;
-    probes_.push_back({seen->point, seen->normal});
+    probes_.push_back(
+        {seen->point, seen->normal, seen->surface, seen->albedo, 0.0,
+         Norm(seen->point.xyz - eye.xyz) / std::max(1.0, std::min(camera_.fx, camera_.fy))});
     Vec2 pixel;
     Observe(rgb, pose, static_cast<std::uint32_t>(probes_.size() - 1), &pixel, &frame);
   }
   readings_ += frame.probes.size();
   frames_.push_back(std::move(frame));
   if (readings_ > max_readings_) ThinOut();
+}
+
+void LightProbes::SetResponse(const CameraResponse& response) {
+  const auto decoded = [&](double code, int c) {
+    const auto& linear = response.Linear(c);
+    const double at = std::clamp(code, 0.0, 1.0) * 255.0;
+    const int below = std::min(static_cast<int>(at), 254);
+    return linear[below] + (at - below) * (linear[below + 1] - linear[below]);
+  };
+  for (ProbedFrame& frame : frames_) {
+    for (auto& linear : frame.linear) {
+      for (int c = 0; c < 3; ++c) {
+        linear[c] = static_cast<float>(decoded(response_.Encoded(linear[c], c), c));
+      }
+    }
+  }
+  response_ = response;
+}
+
+bool LightProbes::Keeps(std::uint32_t probe, std::size_t frame) const {
+  // SplitMix64 (Steele, Lea & Flood 2014).
+  std::uint64_t mixed = (static_cast<std::uint64_t>(frame) << 32) | probe;
+  mixed = (mixed ^ (mixed >> 30)) * 0xbf58476d1ce4e5b9U;
+  mixed = (mixed ^ (mixed >> 27)) * 0x94d049bb133111ebU;
+  mixed ^= mixed >> 31;
+  return mixed % thinning_ == 0;
 }
 
 void LightProbes::ThinOut() {
@@ -130,6 +176,8 @@ void LightProbes::ThinOut() {
     }
     frame.probes.resize(kept);
     frame.linear.resize(kept);
+    frame.probes.shrink_to_fit();
+    frame.linear.shrink_to_fit();
     readings_ += kept;
   }
 }

@@ -19,7 +19,14 @@ namespace pleinair::compositor {
 struct LightProbe {
   Point<Marker> point;
   Vec3 normal;
+  int surface = 0;           ///< As in PhantomSurface, or of the marker.
+  LinearRgb albedo;          ///< As described.
+  double width_m = 0.0;      ///< Of the marker's black band; 0 elsewhere.
+  double footprint_m = 0.0;  ///< Of a pixel, where the probe was first seen.
 };
+
+/// LightProbe::surface of the marker's white and of its black.
+inline constexpr int kMarkerWhite = -1, kMarkerBlack = -2;
 
 /// Brightness of the probes that one frame shows, neither covered nor clipped.
 struct ProbedFrame {
@@ -34,7 +41,7 @@ struct ProbedFrame {
 /// bounded.
 class LightProbes {
  public:
-  /// `phantoms` must outlive this object. `max_readings` bounds the memory, at about 50 bytes each
+  /// `phantoms` must outlive this object. `max_readings` bounds the memory, at about 80 bytes each
   /// with the fit.
   LightProbes(const PhantomRays& phantoms, const CameraModel& camera,
               const CameraResponse& response, std::size_t max_readings = 2'000'000);
@@ -44,16 +51,18 @@ class LightProbes {
                 const scene::MarkerReflectance& marker, std::int64_t frame_index,
                 std::int64_t timestamp_ns);
 
+  /// Decodes the readings, and those of frames to come, by another response.
+  void SetResponse(const CameraResponse& response);
+
   const std::vector<LightProbe>& probes() const { return probes_; }
   const std::vector<ProbedFrame>& frames() const { return frames_; }
 
  private:
   /// Halves the readings of all frames, and of those to come.
   void ThinOut();
-  /// True if a frame keeps its reading of this probe.
-  bool Keeps(std::uint32_t probe, std::size_t frame) const {
-    return (probe + frame) % thinning_ == 0;
-  }
+  /// True if a frame keeps its reading of this probe: at random, so that all probes meet all
+  /// others.
+  bool Keeps(std::uint32_t probe, std::size_t frame) const;
   void AddMarker(const scene::MarkerReflectance& marker);
   /// Returns whether the probe's pixel lies in the image, and appends its brightness if it is
   /// visible and not clipped.

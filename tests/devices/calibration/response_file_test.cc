@@ -3,7 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <vector>
 
 #include "scene/scene_description.h"
 #include "tests/temporary_folder.h"
@@ -48,6 +51,31 @@ TEST_F(ResponseFile, GivesACurveOfItsOwnToEachChannel) {
       ASSERT_EQ(response->Encoded8(response->Linear(c)[code], c), code);
     }
   }
+}
+
+TEST_F(ResponseFile, IsReadAsItWasWritten) {
+  // A curve with black below a raised floor, where light hardly rises, and one of each channel.
+  std::vector<double> encoded;
+  std::array<std::vector<double>, 3> light;
+  for (int i = 0; i <= 64; ++i) {
+    const double at = i / 64.0, lifted = std::max(0.0, (at - 0.06) / 0.94);
+    encoded.push_back(at);
+    for (int c = 0; c < 3; ++c) {
+      light[c].push_back(i == 64 ? 1.0 : 2e-6 * i + (1 - 2e-4) * std::pow(lifted, 1.8 + 0.2 * c));
+    }
+  }
+  const auto response = CameraResponse::FromSamples(encoded, light);
+  ASSERT_TRUE(response);
+  const auto read = Read(CameraResponseText(*response));
+  ASSERT_TRUE(read) << read.error().Message();
+  for (int c = 0; c < 3; ++c) {
+    for (int code = 0; code < 256; ++code) {
+      EXPECT_NEAR(read->Linear(c)[code], response->Linear(c)[code], 1e-3) << code;
+    }
+  }
+  const auto srgb = Read(CameraResponseText({}));
+  ASSERT_TRUE(srgb);
+  EXPECT_TRUE(srgb->IsSrgb());
 }
 
 TEST_F(ResponseFile, IsSrgbWhereItSaysSo) {
