@@ -36,8 +36,14 @@ double Apartness(const std::vector<ShadowSample>& surface_samples, std::size_t f
                       : 0.0;
 }
 
-/// True if the color step from the dark to the bright surface samples is that between sky and sun.
-bool ChangesColorAsShadowsDo(const ShadowCell& cell, const TwoLevels& levels) {
+/// Color of the brighter samples over that of the darker ones, logarithms of red and blue over
+/// green; and what it would be if a shadow made the step.
+struct ColorStep {
+  std::array<double, 2> seen{}, of_shadow{};
+};
+
+ColorStep ColorStepOf(const ShadowCell& cell, const TwoLevels& levels) {
+  ColorStep step;
   const double share = (levels.high - levels.low) / cell.depth;
   for (const std::size_t k : {0, 1}) {
     double low = 0.0, high = 0.0;
@@ -46,9 +52,17 @@ bool ChangesColorAsShadowsDo(const ShadowCell& cell, const TwoLevels& levels) {
     }
     low /= static_cast<double>(levels.low_count);
     high /= static_cast<double>(cell.surface_samples.size() - levels.low_count);
-    if (std::fabs(high - low - share * cell.color_step[k]) > kMaxColorOffset) return false;
+    step.seen[k] = high - low;
+    step.of_shadow[k] = share * cell.color_step[k];
   }
-  return true;
+  return step;
+}
+
+/// True if the color step from the dark to the bright surface samples is that between sky and sun.
+bool ChangesColorAsShadowsDo(const ShadowCell& cell, const TwoLevels& levels) {
+  const ColorStep step = ColorStepOf(cell, levels);
+  return std::fabs(step.seen[0] - step.of_shadow[0]) <= kMaxColorOffset &&
+         std::fabs(step.seen[1] - step.of_shadow[1]) <= kMaxColorOffset;
 }
 
 /// The surface sample nearest to the centroid.
@@ -100,6 +114,11 @@ bool HasShadowBoundary(const ShadowCell& cell, const TwoLevels& levels) {
   // A pole's shadow lies in the middle of a cell, with sun on both sides, but it is sharp.
   return two && (IsSharp(levels) || Apartness(cell.surface_samples, levels.low_count) > kApart) &&
          ChangesColorAsShadowsDo(cell, levels);
+}
+
+bool IsPatterned(const ShadowCell& cell, const TwoLevels& levels) {
+  const auto [seen, of_shadow] = ColorStepOf(cell, levels);
+  return std::hypot(seen[0], seen[1]) < std::hypot(seen[0] - of_shadow[0], seen[1] - of_shadow[1]);
 }
 
 ShadowCrossing CrossingOf(const ShadowCell& cell, const TwoLevels& levels) {

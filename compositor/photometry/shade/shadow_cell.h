@@ -34,7 +34,8 @@ struct ShadowCell {
   double depth = 0.0;          // Depth of a shadow there, logarithmic, green.
   std::array<double, 2> color_step{};  // Red and blue against green.
   int surface = 0;
-  Vec3 normal;  // Of its surface, unit, marker coordinates, towards the eye.
+  std::size_t index = 0;  // Among the cells of the surface samples.
+  Vec3 normal;            // Of its surface, unit, marker coordinates, towards the eye.
 
   SurfacePlane Plane() const { return PlaneOf(surface, normal); }
   double Median() const {
@@ -51,6 +52,10 @@ bool IsSharp(const TwoLevels& levels);
 /// True if a shadow boundary divides a cell of sorted surface samples: two sharp levels, or two
 /// levels on opposite sides.
 bool HasShadowBoundary(const ShadowCell& cell, const TwoLevels& levels);
+
+/// True if the darker surface samples of a cell have the color of the brighter ones rather than
+/// that of a shadow on them: joints and spots of the surface.
+bool IsPatterned(const ShadowCell& cell, const TwoLevels& levels);
 
 /// Measures the shadow boundary in a cell that contains one.
 ShadowCrossing CrossingOf(const ShadowCell& cell, const TwoLevels& levels);

@@ -34,11 +34,13 @@ constexpr double kDimDepth = 0.25, kSunlitReferenceQuantile = 0.9;
 // Share of the sun below which a surface sample has none, and above which it has all. In between,
 // patterns and true half-light cannot be separated.
 constexpr double kNoSun = 0.1, kAllSun = 0.9;
+// Share of a shadow's depth below the sunlit level from which on a cell is not in the sun.
+constexpr double kOpenDepth = 0.3;
 
 /// Estimates the sun's share at every surface sample that the model has in the sun.
 void MapSunlight(const SunlitIrradiance& light, const std::vector<std::uint8_t>& sun_visible,
                  const SurfaceSamples& samples, const SunlitSurfaces& surfaces,
-                 UnmodelledShadows* unmodelled) {
+                 const std::vector<std::uint8_t>& open, UnmodelledShadows* unmodelled) {
   unmodelled->on_marker.sun = light.sun_on_marker();
   unmodelled->on_marker.ambient = light.ambient_on_marker();
   const double log_exposure_scale = std::log(unmodelled->sunlit_scale.ratio);
@@ -57,7 +59,9 @@ void MapSunlight(const SunlitIrradiance& light, const std::vector<std::uint8_t>&
         (surface_sample.log_rgb[0] + surface_sample.log_rgb[1] + surface_sample.log_rgb[2]) / 3;
     const LinearRgb sun = light.SunOn(surface_sample.normal), sky = light.sky();
     const double ambient_share = sky.g / (sky.g + sun.g);
-    const double share = (std::exp(brightness - level) - ambient_share) / (1 - ambient_share);
+    const double share = open[surface_sample.cell] != 0
+                             ? 1.0
+                             : (std::exp(brightness - level) - ambient_share) / (1 - ambient_share);
     const double t = std::clamp((share - kNoSun) / (kAllSun - kNoSun), 0.0, 1.0);
     surface_samples.push_back(
         {surface_sample.point.xyz, t * t * (3 - 2 * t), surface_sample.footprint_m});
@@ -113,6 +117,18 @@ void CountShaded(const std::vector<ShadowCell>& cells, const SunlitSurfaces& sun
       cells, sunlit, [](const SunlitSurface& surface) { return surface.level; },
       &unmodelled->sunlit);
   if (unmodelled->IsWide()) unmodelled->shaded = std::max(unmodelled->shaded, unmodelled->dim);
+}
+
+/// True if the sun reaches all of the cell that the model has in the sun, as far as it is seen.
+/// What is darker are joints and spots of the surface, or blur beside a phantom's own shadow.
+bool IsOpen(const ShadowCell& cell, const SunlitSurfaces& sunlit) {
+  const auto surface = sunlit.find(cell.Plane());
+  if (cell.in_sun.empty() || surface == sunlit.end()) return false;
+  const double open = surface->second.level - kOpenDepth * cell.depth;
+  if (Quantile(cell.in_sun, 0.5) < open) return false;
+  if (cell.unlit) return true;
+  const TwoLevels levels = SplitInTwo(cell.surface_samples);
+  return !HasShadowBoundary(cell, levels) || IsPatterned(cell, levels);
 }
 
 /// The darkest places relative to their surfaces' sunlit levels.
@@ -174,6 +190,7 @@ UnmodelledShadows FindUnmodelledShadows(const PhantomRays& phantoms, const Surfa
     cell.depth = depths[1];
     cell.color_step = {depths[0] - depths[1], depths[2] - depths[1]};
     cell.surface = surface_sample.surface;
+    cell.index = surface_sample.cell;
     cell.normal = surface_sample.normal;
   }
   std::erase_if(cells, [](const ShadowCell& cell) {
@@ -213,7 +230,11 @@ UnmodelledShadows FindUnmodelledShadows(const PhantomRays& phantoms, const Surfa
   CountShaded(cells, sunlit, &unmodelled);
   CountShadedEdges(cells, sunlit, &unmodelled);
   unmodelled.deepest = DeepestPlaces(cells, sunlit);
-  if (unmodelled.Matters()) MapSunlight(light, sun_visible, samples, sunlit, &unmodelled);
+  if (unmodelled.Matters()) {
+    std::vector<std::uint8_t> open(samples.cells());
+    for (const ShadowCell& cell : cells) open[cell.index] = IsOpen(cell, sunlit) ? 1 : 0;
+    MapSunlight(light, sun_visible, samples, sunlit, open, &unmodelled);
+  }
   return unmodelled;
 }
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -141,6 +142,40 @@ TEST_F(ShadowLight, MapsWhereTheSunComesThroughTrees) {
   }
   EXPECT_GT(points, 200);
   EXPECT_GT(right, 0.95 * points);
+}
+
+TEST_F(ShadowLight, MapsNoShadeWherePavingHasDarkJoints) {
+  const auto tree = [](Vec3 p) { return p.x < -0.9; };
+  const auto joints = [](Vec3 p) {
+    const auto beside = [](double v) { return std::fabs(v / 0.4 - std::round(v / 0.4)) * 0.4; };
+    return p.z < 0.01 && std::min(beside(p.x), beside(p.y)) < 0.015 ? 0.4 : 1.0;
+  };
+  const UnmodelledShadows unmodelled =
+      Shade(Look({.shaded = tree, .colors_as_described = true, .brighter = joints}), yard_->model(),
+            yard_->phantoms());
+  ASSERT_TRUE(unmodelled.Matters());
+  const Vec3 to_sun = Normalized(yard_->model().ToSun().xyz);
+  int points = 0, open = 0, dark = 0;
+  for (int column = -60; column <= 30; ++column) {
+    for (int row = -40; row <= 10; ++row) {
+      const Vec3 ground{0.02 * column, 0.02 * row, 0.0};
+      const bool on_marker = std::max(std::fabs(ground.x), std::fabs(ground.y)) < 0.22;
+      const bool beside_tree = std::fabs(ground.x + 0.9) < 0.15;
+      if (on_marker || beside_tree || yard_->IsBesideShadowEdge(ground)) continue;
+      if (!yard_->phantoms().IsUnoccluded({ground}, to_sun)) continue;
+      const double share = unmodelled.sun_transmittance.At(ground);
+      if (tree(ground)) {
+        EXPECT_LT(share, 0.3) << ground.x << ' ' << ground.y;
+        continue;
+      }
+      ++points;
+      open += share > 0.95 ? 1 : 0;
+      dark += share < 0.7 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(points, 500);
+  EXPECT_GT(open, 0.98 * points);
+  EXPECT_EQ(dark, 0);
 }
 
 TEST(SunTransmittanceMap, IsEmptyWhereAFewSamplesLieInOppositeCorners) {
