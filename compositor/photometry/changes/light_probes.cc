@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/parallel_for.h"
+#include "compositor/light/sampling.h"
 #include "compositor/light/scaled_sky.h"
 #include "compositor/photometry/linear_sampling.h"
 
@@ -155,12 +156,7 @@ void LightProbes::SetResponse(const CameraResponse& response) {
 }
 
 bool LightProbes::Keeps(std::uint32_t probe, std::size_t frame) const {
-  // SplitMix64 (Steele, Lea & Flood 2014).
-  std::uint64_t mixed = (static_cast<std::uint64_t>(frame) << 32) | probe;
-  mixed = (mixed ^ (mixed >> 30)) * 0xbf58476d1ce4e5b9U;
-  mixed = (mixed ^ (mixed >> 27)) * 0x94d049bb133111ebU;
-  mixed ^= mixed >> 31;
-  return mixed % thinning_ == 0;
+  return Hash(probe, static_cast<std::uint32_t>(frame)) % thinning_ == 0;
 }
 
 void LightProbes::ThinOut() {
