@@ -54,7 +54,7 @@ def exposed(film, kind, sun_level, sky_level, frames_per_s):
 
 
 def drifting_white_balance(random, film):
-    """Red and blue drift apart by up to a tenth over the film."""
+    """Red and blue drift in opposite directions over the film, by 4 to 10 % each."""
     way = np.linspace(0.0, 1.0, len(film.gain))
     red, blue = random.uniform(0.04, 0.1, 2) * random.choice([-1.0, 1.0])
     film.gain = film.gain * np.stack([1 + red * way, np.ones_like(way), 1 - blue * way], axis=1)
