@@ -26,6 +26,7 @@ PhantomPaths::PhantomPaths(const PatchScene& scene, int bounces, const sky::SkyM
 
 LinearRgb PhantomPaths::Irradiance(Vec3 point, const TangentFrame& frame,
                                    std::uint32_t paths) const {
+  const bool has_sun = Luminance(sun_) > 0.0;
   LinearRgb sum;
   for (std::uint32_t path = 0; path < paths; ++path) {
     Vec3 origin = point + frame.normal * kRayOffset_m;
@@ -45,7 +46,7 @@ LinearRgb PhantomPaths::Irradiance(Vec3 point, const TangentFrame& frame,
       const TangentFrame at_hit(hit.back ? -face.normal : face.normal);
       origin = origin + direction * hit.distance_m + at_hit.normal * kRayOffset_m;
       const std::uint32_t seed = Hash(path, static_cast<std::uint32_t>(bounce));
-      const double cosine = Dot(at_hit.normal, sun_frame_.normal);
+      const double cosine = has_sun ? Dot(at_hit.normal, sun_frame_.normal) : 0.0;
       const Vec3 to_sun = SunDiscDirection(sun_frame_, RandomPoint(seed, 1));
       if (cosine > 0.0 && !scene_.rays->Occluded(RayTargets::kPhantoms, origin, to_sun)) {
         sum = sum + throughput * sun_ * (sun_transmittance_.At(origin) * cosine / std::numbers::pi);

@@ -22,6 +22,8 @@ namespace {
 // Largest number of rounds, and the logarithmic step at which they end.
 constexpr int kMaxRounds = 40;
 constexpr double kConverged = 0.002;
+// Part of the residual that a round leaves, while the step is larger than this and afterwards.
+constexpr double kCoarse = 1e-2, kSettled = 0.01, kFine = 1e-6;
 // Relative change of the noise, likewise.
 constexpr double kNoiseConverged = 0.05;
 // The step at which a noise that is large, and the same for all probes, gives way to that of each.
@@ -83,8 +85,11 @@ class Fit {
 
   void Converge() {
     bool starting = true;
+    double moved = kLargestStep;
     for (int i = 0; i < kMaxRounds; ++i) {
-      const double moved = Iterate();
+      // Coarsely while the steps are large (Dembo, Eisenstat & Steihaug 1982).
+      const double precision = moved > kSettled ? kCoarse : kFine;
+      moved = Iterate(precision);
       // At first every probe counts: a shadow that stays as it was would pass for an outlier.
       if (moved < kStarted) starting = false;
       const double noise_before = noise_;
@@ -94,7 +99,7 @@ class Fit {
       if (std::find(kShadeRounds.begin(), kShadeRounds.end(), i) != kShadeRounds.end()) {
         DecideShade();
       }
-      if (moved < kConverged && !settling) break;
+      if (moved < kConverged && precision == kFine && !settling) break;
     }
   }
 
@@ -109,7 +114,7 @@ class Fit {
     }
     for (LogLight& light : now_.light) light = balance.array() + light.mean();
     UpdateFactors();
-    for (int i = 0; i < kMaxRounds && Iterate() > kConverged; ++i) {
+    for (int i = 0; i < kMaxRounds && Iterate(kFine) > kConverged; ++i) {
     }
   }
 
@@ -135,7 +140,7 @@ class Fit {
       LightEquations equations(probes_, *walk_, reference_,
                                LightUnknowns(count, now_.planes.size()));
       equations.AddPriorNoise(sample);
-      const LightUnknowns error = equations.Solve();
+      const LightUnknowns error = equations.Solve(kFine);
       for (std::size_t t = 0; t < count; ++t) {
         const double ratio = RatioDirection().dot(error.light[t]);
         squares[t] += ratio * ratio / (ratio_variances_[t] * kSamples);
@@ -158,8 +163,8 @@ class Fit {
   }
 
  private:
-  /// One round; returns the largest step of a frame's light.
-  double Iterate() {
+  /// One round, solved to this part of the residual; returns the largest step of a frame's light.
+  double Iterate(double precision) {
     ParallelFor(probes_.size(), 0, [&](std::size_t i) {
       probes_[i].Linearize(factors_, now_.planes[probes_[i].plane()], independent_);
     });
@@ -169,7 +174,7 @@ class Fit {
     for (std::size_t t = 0; t < covariances.size(); ++t) {
       ratio_variances_[t] = RatioDirection().dot(covariances[t] * RatioDirection());
     }
-    LightUnknowns step = equations.Solve();
+    LightUnknowns step = equations.Solve(precision);
     if (const double largest = step.Largest(); largest > kLargestStep) {
       step.Scale(kLargestStep / largest);
     }

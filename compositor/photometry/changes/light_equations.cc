@@ -23,9 +23,8 @@ constexpr double kReferenceSpread = 0.1;
 // Precision of the condition that the mean logarithm of the reference frames' light is 0, and of
 // each frame's light where nothing is seen.
 constexpr double kGauge = 1e6, kAnchor = 1e-4;
-// Conjugate gradients: largest number of steps, and the residual's part at which they end.
+// Largest number of steps of conjugate gradients.
 constexpr int kMaxSteps = 100;
-constexpr double kEnd = 1e-6;
 // Parts into which the probes are divided for threads. Sums over them have a fixed order, so that
 // the result is the same on any number of threads.
 constexpr std::size_t kParts = 16;
@@ -183,7 +182,7 @@ LightUnknowns LightEquations::Product(const LightUnknowns& x) const {
   return product;
 }
 
-LightUnknowns LightEquations::Solve() const {
+LightUnknowns LightEquations::Solve(double end) const {
   const BlockTridiagonal frames(diagonal_, walk_);
   const auto precondition = [&](const LightUnknowns& residual) {
     LightUnknowns solved = residual;
@@ -196,8 +195,8 @@ LightUnknowns LightEquations::Solve() const {
   LightUnknowns x(right_.light.size(), right_.planes.size());
   LightUnknowns residual = right_, direction = precondition(residual);
   double size = residual.Dot(direction);
-  const double end = size * kEnd * kEnd;
-  for (int i = 0; i < kMaxSteps && size > end; ++i) {
+  const double end_size = size * end * end;
+  for (int i = 0; i < kMaxSteps && size > end_size; ++i) {
     const LightUnknowns product = Product(direction);
     const double along = size / direction.Dot(product);
     x.Add(direction, along);

@@ -36,7 +36,8 @@ class LightEquations {
 
   /// By conjugate gradients (Hestenes & Stiefel 1952), preconditioned by the matrix with
   /// albedos held fixed.
-  LightUnknowns Solve() const;
+  /// Ends where this part of the residual is left.
+  LightUnknowns Solve(double end) const;
   /// Adds a sample of what the right-hand side varies by because of the priors. About unknowns of 0
   /// and with noise in the probes (ProbeFit::PutNoise()), Solve() then returns a sample of the
   /// posterior (Papandreou & Yuille 2010).
