@@ -60,10 +60,15 @@ Result<void> Write(const ResponseArguments& arguments, const session::SceneRende
     std::cout << summary.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
     return {};
   }
-  std::cout << fmt::format(
-      "{} Another curve is {:.2g} times as likely; it gives the light within {:.0f} %.\n",
-      measured ? "The camera does not encode light as sRGB." : "sRGB holds.",
-      std::exp(std::min(found.log_evidence, kMostCertain)), 100 * found.log_error);
+  const double likelier = std::exp(std::min(found.log_evidence, kMostCertain));
+  if (measured) {
+    std::cout << fmt::format(
+        "The camera does not encode light as sRGB. The curve found is {:.2g} times as likely, and "
+        "gives the light within {:.0f} %.\n",
+        likelier, 100 * found.log_error);
+  } else {
+    std::cout << fmt::format("sRGB holds. Another curve is {:.2g} times as likely.\n", likelier);
+  }
   return {};
 }
 
@@ -81,7 +86,8 @@ Result<void> RunResponse(const ResponseArguments& arguments) {
   scene.camera_response.clear();
   if (scene.objects.empty() || scene.phantoms.empty()) {
     return InputError(name, scene.objects.empty() ? "has no virtual object" : "has no phantom",
-                      "describe both in the scene: the curve is seen on surfaces of known color");
+                      "add it to the scene: the curve is seen on phantoms, and lighting needs an "
+                      "object to light");
   }
   PLEINAIR_ASSIGN_OR_RETURN(const auto pipeline,
                             session::Pipeline::Create(recording.camera, scene, {}));

@@ -156,6 +156,8 @@ void LightProbes::SetResponse(const CameraResponse& response) {
 }
 
 bool LightProbes::Keeps(std::uint32_t probe, std::size_t frame) const {
+  // The marker has few.
+  if (probes_[probe].surface < 0) return true;
   return Hash(probe, static_cast<std::uint32_t>(frame)) % thinning_ == 0;
 }
 

@@ -75,14 +75,21 @@ LightStart StartLight(const std::vector<ProbeFit>& probes, std::size_t frame_cou
   if (Shown(sunlit) == 0) sunlit = total;
   // Where most frames show too little shade, the brightest ones have the full sun.
   const bool compare = 2 * Shown(shaded) > frame_count;
-  if (reference.empty()) {
-    reference = FramesInFullSun(sunlit, compare ? shaded : Brightness(frame_count, 0.0));
-  }
   std::vector<std::size_t> readings(frame_count, 0);
   for (const ProbeFit& probe : probes) {
     for (const ProbeReading& reading : probe.readings()) ++readings[reading.frame];
   }
-  std::erase_if(reference, [&](std::size_t t) { return readings[t] < kMinProbes; });
+  const auto erase_sparse = [&] {
+    std::erase_if(reference, [&](std::size_t t) { return readings[t] < kMinProbes; });
+  };
+  erase_sparse();
+  if (reference.empty()) {
+    reference = FramesInFullSun(sunlit, compare ? shaded : Brightness(frame_count, 0.0));
+  }
+  if (reference.empty()) {
+    for (std::size_t t = 0; t < frame_count; ++t) reference.push_back(t);
+  }
+  erase_sparse();
 
   const double all = UsualOf(total, reference), lit = UsualOf(sunlit, reference),
                unlit = UsualOf(shaded, reference);

@@ -33,14 +33,15 @@ constexpr double kDeviationOfMedian = 1.4826;
 constexpr double kAlike = 0.99;
 
 /// True if all points around a probe are as much in the sun as the probe.
-bool IsClear(const LightProbe& probe, double visibility, const PhantomRays& phantoms, Vec3 to_sun) {
+bool IsClear(const LightProbe& probe, double footprint_m, double visibility,
+             const PhantomRays& phantoms, Vec3 to_sun) {
   if (visibility > 0.0 && visibility < 1.0) return false;
   const Vec3 any = std::fabs(probe.normal.x) < 0.7 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
   const Vec3 u = Normalized(Cross(probe.normal, any)), v = Cross(probe.normal, u);
   for (int i = 0; i < kDirections; ++i) {
     const double angle = 2.0 * std::numbers::pi * i / kDirections;
     const Vec3 aside = u * std::cos(angle) + v * std::sin(angle);
-    const Point<Marker> at{probe.point.xyz + aside * (kClear_px * probe.footprint_m)};
+    const Point<Marker> at{probe.point.xyz + aside * (kClear_px * footprint_m)};
     if (phantoms.SunVisibility(at, to_sun) != visibility) return false;
   }
   return true;
@@ -52,6 +53,12 @@ std::vector<std::uint8_t> Usable(const std::vector<LightProbe>& probes,
                                  Vec3 to_sun) {
   double brightest = 0.0;
   for (const ProbeLight& one : light) brightest = std::max(brightest, one.direct.g);
+  // The marker's probes have none of their own.
+  std::vector<double> footprints;
+  for (const LightProbe& probe : probes) {
+    if (probe.footprint_m > 0.0) footprints.push_back(probe.footprint_m);
+  }
+  const double usual_m = footprints.empty() ? 0.0 : Median(footprints);
   std::vector<std::uint8_t> usable(probes.size());
   ParallelFor(probes.size(), 0, [&](std::size_t i) {
     const LinearRgb& sky = light[i].sky;
@@ -59,7 +66,11 @@ std::vector<std::uint8_t> Usable(const std::vector<LightProbe>& probes,
     if (std::min({sky.r, sky.g, sky.b, albedo.r, albedo.g, albedo.b}) <= 0.0) return;
     const bool faces = light[i].direct.g > 0.0;
     if (faces && light[i].direct.g < kGrazing * brightest) return;
-    usable[i] = !faces || IsClear(probes[i], light[i].sun_visibility, phantoms, to_sun) ? 1 : 0;
+    usable[i] =
+        !faces || IsClear(probes[i], probes[i].footprint_m > 0.0 ? probes[i].footprint_m : usual_m,
+                          light[i].sun_visibility, phantoms, to_sun)
+            ? 1
+            : 0;
   });
   return usable;
 }
@@ -130,8 +141,6 @@ ResponseChart CollectResponseChart(const std::vector<ProbedFrame>& probed,
       const double independent = std::min(kIndependentProbes, static_cast<double>(entries.size()));
       field.error = std::hypot(
           kModelError, kPatternFactor * std::max(spread, kMinPattern) / std::sqrt(independent));
-      // Frames show the same patterns: together they tell as much as one.
-      field.error *= std::sqrt(static_cast<double>(frames.size()));
       field.surface = surfaces.try_emplace(surface, surfaces.size()).first->second;
       if (field.surface == chart.surfaces.size()) chart.surfaces.push_back(KindOf(surface));
       field.group = groups.try_emplace({normal, sunlit}, groups.size()).first->second;

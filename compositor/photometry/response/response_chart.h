@@ -19,7 +19,7 @@ struct ChartField {
   bool sunlit = false;
   /// Logarithms of the median, red, green and blue, decoded as sRGB.
   std::array<double, 3> log_linear{};
-  double error = 0.0;  ///< One standard deviation of `log_linear`.
+  double error = 0.0;  ///< One standard deviation of `log_linear`, the same error in all frames.
   LinearRgb albedo;    ///< As described.
   LinearRgb of_sun;    ///< Modelled light of the sun, direct and reflected; lux.
   LinearRgb of_sky;    ///< Modelled light of the sky; lux.
@@ -32,7 +32,7 @@ struct ResponseChart {
   std::vector<ChartField> fields;
   std::size_t frames = 0;
   std::vector<Surface> surfaces;
-  std::vector<bool> level;  ///< By group: as the marker lies, so that the light is well known.
+  std::vector<bool> level;  ///< By group: parallel to the marker, so that the light is well known.
   /// True if shade falls on surfaces that the model has in the sun. The chart is unusable then.
   bool unmodelled_shadows = false;
 };

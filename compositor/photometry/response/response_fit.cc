@@ -7,8 +7,10 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <vector>
 
+#include "base/quantile.h"
 #include "base/srgb.h"
 
 namespace pleinair::compositor {
@@ -106,7 +108,7 @@ class ChartFit {
     double cost = 0.0;
     for (const ChartField& field : chart_.fields) {
       for (int c = 0; c < 3; ++c)
-        cost += StudentCost(RowOf(field, c).residual, field.error, kFreedom);
+        cost += Share() * StudentCost(RowOf(field, c).residual, field.error, kFreedom);
     }
     for (std::size_t s = 0; s < chart_.surfaces.size(); ++s) {
       if (chart_.surfaces[s] == Surface::kPhantom) {
@@ -139,18 +141,18 @@ class ChartFit {
       if (chart_.surfaces[field.surface] != Surface::kWhite) continue;
       white = std::max(white, SrgbFromLinear(std::exp(field.log_linear[1])));
     }
-    const Eigen::MatrixXd covariance = CurveOf(covariance_);
     double sum = 0.0;
     for (const ChartField& field : chart_.fields) {
-      Eigen::VectorXd beside = Eigen::VectorXd::Zero(kKnots);
+      Eigen::VectorXd beside = Eigen::VectorXd::Zero(x_.size());
       const auto add = [&](double code, double sign) {
         const auto [knot, weight] = KnotsAbout(code);
         beside[knot] += sign * (1.0 - weight);
         beside[knot + 1] += sign * weight;
+        beside[glare_] -= sign * Glare() / std::max(Light(code), Glare());
       };
       add(SrgbFromLinear(std::exp(field.log_linear[1])), 1.0);
       add(white, -1.0);
-      sum += std::sqrt(std::max(0.0, beside.dot(covariance * beside)));
+      sum += std::sqrt(std::max(0.0, beside.dot(covariance_ * beside)));
     }
     // The channels err alike: three tell as much of the light as one.
     return std::numbers::sqrt3 * sum / static_cast<double>(chart_.fields.size());
@@ -168,6 +170,8 @@ class ChartFit {
     return covariance.topLeftCorner(kKnots, kKnots);
   }
 
+  /// Frames show the same surfaces and patterns: together they tell as much as one.
+  double Share() const { return 1.0 / static_cast<double>(chart_.frames); }
   double Glare() const { return kGlare * std::exp(x_[glare_]); }
 
   Row RowOf(const ChartField& field, int c) const {
@@ -196,20 +200,27 @@ class ChartFit {
     return row;
   }
 
-  /// The exposures that make the marker's white right.
+  /// The exposures that make the marker's white right, by its part in the sun if some of it is;
+  /// those that make most fields right in frames that show no white.
   void StartExposures() {
-    std::vector<bool> started(static_cast<std::size_t>(sky_ - exposure_));
+    const auto count = static_cast<std::size_t>(sky_ - exposure_);
+    std::vector<std::vector<double>> all(count), white(count), sunlit_white(count);
     for (const ChartField& field : chart_.fields) {
-      if (chart_.surfaces[field.surface] != Surface::kWhite) continue;
+      const bool is_white = chart_.surfaces[field.surface] == Surface::kWhite;
       for (int c = 0; c < 3; ++c) {
         const Row row = RowOf(field, c);
-        double& exposure = x_[row.index[2]];
-        const double wanted = row.residual + exposure;
-        auto first = started[static_cast<std::size_t>(row.index[2] - exposure_)];
-        // By its part in the sun, if some of it is.
-        if (!first || field.sunlit) exposure = wanted;
-        first = true;
+        const auto i = static_cast<std::size_t>(row.index[2] - exposure_);
+        const double wanted = row.residual + x_[row.index[2]];
+        all[i].push_back(wanted);
+        if (is_white) white[i].push_back(wanted);
+        if (is_white && field.sunlit) sunlit_white[i].push_back(wanted);
       }
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto& best = !sunlit_white[i].empty() ? sunlit_white[i]
+                         : !white[i].empty()      ? white[i]
+                                                  : all[i];
+      if (!best.empty()) x_[exposure_ + static_cast<int>(i)] = Median(best);
     }
   }
 
@@ -257,7 +268,7 @@ class ChartFit {
     for (const ChartField& field : chart_.fields) {
       for (int c = 0; c < 3; ++c) {
         const Row row = RowOf(field, c);
-        const double weight = StudentPrecision(row.residual, field.error, kFreedom);
+        const double weight = Share() * StudentPrecision(row.residual, field.error, kFreedom);
         for (std::size_t i = 0; i < row.index.size(); ++i) {
           right[row.index[i]] -= weight * row.slope[i] * row.residual;
           for (std::size_t j = 0; j < row.index.size(); ++j) {
@@ -287,7 +298,7 @@ ChartFit BestFit(const ResponseChart& chart, bool free_curve) {
   return sunlit.Cost() <= overcast.Cost() ? sunlit : overcast;
 }
 
-CameraResponse ResponseOf(const ChartFit& fit) {
+std::optional<CameraResponse> ResponseOf(const ChartFit& fit) {
   std::vector<double> encoded, light;
   for (int i = 0; i < kSamples; ++i) {
     const double code = i / (kSamples - 1.0);
@@ -298,7 +309,7 @@ CameraResponse ResponseOf(const ChartFit& fit) {
   const double most = light.back();
   for (double& value : light) value /= most;
   light.back() = 1.0;
-  return CameraResponse::FromSamples(encoded, {light, light, light}).value_or(CameraResponse{});
+  return CameraResponse::FromSamples(encoded, {light, light, light});
 }
 
 }  // namespace
@@ -314,8 +325,9 @@ ResponseEstimate FitResponse(const ResponseChart& chart) {
   const ChartFit srgb = BestFit(chart, false), other = BestFit(chart, true);
   estimate.log_evidence = srgb.Cost() - other.Cost();
   estimate.log_error = other.Error();
-  estimate.conclusive = estimate.log_evidence > kStrong;
-  if (estimate.conclusive) estimate.response = ResponseOf(other);
+  const std::optional<CameraResponse> response = ResponseOf(other);
+  estimate.conclusive = response && estimate.log_evidence > kStrong;
+  if (estimate.conclusive) estimate.response = *response;
   return estimate;
 }
 

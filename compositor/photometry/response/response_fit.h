@@ -28,10 +28,11 @@ struct ResponseEstimate {
 /// Gaussian process as its prior (Rasmussen & Williams 2006, eq. 4.9). g is the exposure of a frame
 /// and channel, K the sky's strength beside the sun, e the error of a described albedo, p that of
 /// the modelled light on surfaces that lie otherwise than the marker. The marker's white has no
-/// error. h is the lens's glare and what raises the blacks; it becomes part of the response. With
-/// and without a sun, the likelier one counts. sRGB holds unless the evidence, by Laplace's method
-/// (MacKay 2003, ch. 27), is strong. The model is ours; the family of curves is wide enough for
-/// those of Grossberg & Nayar 2004, "Modeling the Space of Camera Response Functions".
+/// error. h is the lens's glare and what raises the blacks; it becomes part of the response. For
+/// either curve the likelier of a place with a sun and one without counts. sRGB holds unless the
+/// evidence, by Laplace's method (MacKay 2003, ch. 27) for the curve alone, is strong. The model is
+/// ours; the family of curves is wide enough for those of Grossberg & Nayar 2004, "Modeling the
+/// Space of Camera Response Functions".
 ResponseEstimate FitResponse(const ResponseChart& chart);
 
 }  // namespace pleinair::compositor

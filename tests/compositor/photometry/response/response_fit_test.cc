@@ -147,6 +147,43 @@ TEST(ResponseFit, HoldsSrgbOfSrgbCameras) {
   }
 }
 
+TEST(ResponseFit, IsNoSurerBecauseManyFramesShowTheSame) {
+  // One surface is in a shade that the model lacks; eight equal frames show it.
+  const auto srgb = [](double light) { return SrgbFromLinear(light); };
+  for (unsigned seed = 0; seed < kSeeds; ++seed) {
+    ResponseChart once = Chart(srgb, seed);
+    once.frames = 1;
+    std::erase_if(once.fields, [](const ChartField& field) { return field.frame != 0; });
+    for (double& value : once.fields[4].log_linear) value += std::log(0.4);
+    ResponseChart often = once;
+    often.frames = 8;
+    for (std::size_t frame = 1; frame < often.frames; ++frame) {
+      for (ChartField field : once.fields) {
+        field.frame = frame;
+        often.fields.push_back(field);
+      }
+    }
+    EXPECT_NEAR(FitResponse(often).log_evidence, FitResponse(once).log_evidence, 0.5) << seed;
+  }
+}
+
+TEST(ResponseFit, TakesFramesWithoutAWhiteBesideOneThatHasIt) {
+  const auto srgb = [](double light) { return SrgbFromLinear(light); };
+  for (unsigned seed = 0; seed < kSeeds; ++seed) {
+    ResponseChart chart = Chart(srgb, seed, 0.2);
+    std::erase_if(chart.fields,
+                  [](const ChartField& field) { return field.frame == 1 && field.surface == 0; });
+    for (ChartField& field : chart.fields) {
+      // Lux.
+      field.of_sun = field.of_sun * 25e3;
+      field.of_sky = field.of_sky * 25e3;
+    }
+    const ResponseEstimate found = FitResponse(chart);
+    EXPECT_TRUE(found.usable);
+    EXPECT_FALSE(found.conclusive) << seed << ": " << found.log_evidence;
+  }
+}
+
 TEST(ResponseFit, HoldsSrgbBehindAHazyLens) {
   const auto hazy = [](double light) { return SrgbFromLinear(light + 0.01); };
   for (unsigned seed = 0; seed < kSeeds; ++seed) {
