@@ -35,7 +35,7 @@ struct ResponseSummary {
   Source source = Source::kSrgb;
   /// Logarithm of the evidence for another curve over that for sRGB; 0 where nothing shows it.
   double log_evidence = 0.0;
-  /// Standard deviation of the logarithm of light beside that of the marker's white; 0 where
+  /// Standard deviation of the logarithm of light relative to that of the marker's white; 0 where
   /// nothing shows it.
   double log_error = 0.0;
 

@@ -11,9 +11,10 @@
 
 namespace pleinair::compositor {
 
-/// Brightness of each frame over the first one that shows any of the probes for which `counts`
-/// holds, logarithmic: the medians of what the probes became from frame to frame, so that a camera
-/// may move on to other surfaces. None for frames with fewer than `min_probes` of them.
+/// Estimates how bright each frame is by the probes for which `counts` holds. The result is the
+/// logarithm over the first frame that shows any of them. It is the median of the probes' changes
+/// from frame to frame, so that the camera may move on to other surfaces. Frames with fewer than
+/// `min_probes` of them have no value.
 std::vector<std::optional<double>> FrameBrightness(
     const std::vector<ProbeFit>& probes, std::size_t frame_count, std::size_t min_probes,
     const std::function<bool(const ProbeFit&)>& counts);

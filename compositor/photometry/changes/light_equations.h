@@ -34,9 +34,8 @@ class LightEquations {
   LightEquations(const std::vector<ProbeFit>& probes, const LightWalk& walk,
                  const std::vector<std::size_t>& reference, const LightUnknowns& now);
 
-  /// By conjugate gradients (Hestenes & Stiefel 1952), preconditioned by the matrix with
-  /// albedos held fixed.
-  /// Ends where this part of the residual is left.
+  /// Solves by conjugate gradients (Hestenes & Stiefel 1952) until this part of the residual is
+  /// left. The preconditioner is the matrix with albedos held fixed.
   LightUnknowns Solve(double end) const;
   /// Adds a sample of what the right-hand side varies by because of the priors. About unknowns of 0
   /// and with noise in the probes (ProbeFit::PutNoise()), Solve() then returns a sample of the

@@ -85,6 +85,9 @@ struct ProbeLight {
   double sun_visibility = 0.0;  ///< Share of `direct` that the phantoms transmit.
   LinearRgb reflected;          ///< Sunlight by way of other surfaces.
   LinearRgb sky;                ///< Skylight, direct and reflected.
+
+  /// True if the phantoms let most of the sun through to it.
+  bool IsSunlit() const { return direct.g > 0.0 && sun_visibility > 0.5; }
 };
 
 /// The light of `day` on each probe. `marker_from_world` has the heading in use.

@@ -10,15 +10,16 @@
 
 namespace pleinair::compositor {
 
-/// Where the fit of the light begins.
+/// Light with which the fit begins.
 struct LightStart {
   std::vector<std::size_t> reference;  ///< Frames in full sun, with enough readings.
-  std::vector<LogLight> light;         ///< By frame; 0 is the usual light of the reference.
+  /// By frame: logarithms over the median of the reference frames.
+  std::vector<LogLight> light;
 };
 
-/// Every frame's light by the brightness of its probes in the sun and of those in shade, as
-/// modelled: the sun and the sky that explain both. Without a `reference` its frames are those with
-/// the deepest shadows.
+/// Estimates the sun and the sky of each frame from two brightnesses: that of the probes that the
+/// phantoms leave in the sun, and that of the others. A frame that does not show both has the ratio
+/// of the frame before. Without a `reference` its frames are those with the deepest shadows.
 LightStart StartLight(const std::vector<ProbeFit>& probes, std::size_t frame_count,
                       std::vector<std::size_t> reference);
 

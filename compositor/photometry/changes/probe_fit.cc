@@ -7,6 +7,7 @@
 #include <random>
 
 #include "base/quantile.h"
+#include "compositor/photometry/student_distribution.h"
 
 namespace pleinair::compositor {
 namespace {
@@ -26,17 +27,6 @@ constexpr double kShadeOdds = 3.0;
 constexpr int kShadeRounds = 4;
 constexpr std::size_t kShadeReadings = 60;
 constexpr double kDarkest = 1e-6;
-
-double StudentCost(double residual, double noise) {
-  const double z = residual / noise;
-  return 0.5 * (kFreedom + 1.0) * std::log1p(z * z / kFreedom);
-}
-
-/// Weight of a residual in iteratively reweighted least squares, times the variance.
-double StudentWeight(double residual, double noise) {
-  const double z = residual / noise;
-  return (kFreedom + 1.0) / (kFreedom + z * z);
-}
 
 /// Light of sun and sky on a probe in one frame, red, green and blue.
 struct Lit {
@@ -110,7 +100,7 @@ void ProbeFit::Linearize(const std::vector<LogLight>& factors, const PlaneError&
     for (int c = 0; c < 3; ++c) {
       const double total = lit.sun[c] + lit.sky[c], share = lit.sun[c] / total;
       const double residual = reading.log_linear[c] - unknowns_[c] - std::log(total);
-      const double weight = counts * StudentWeight(residual, noise_);
+      const double weight = counts * StudentWeight(residual, noise_, kFreedom);
       reading.sun_share[c] = static_cast<float>(share);
       reading.residual[c] = static_cast<float>(residual);
       reading.weight[c] = static_cast<float>(weight);
@@ -210,7 +200,7 @@ void ProbeFit::SetNoise(double usual) {
   double sum = 0.0;
   for (const ProbeReading& reading : readings_) {
     for (const double residual : reading.residual) {
-      sum += StudentWeight(residual, noise_) * residual * residual / 3;
+      sum += StudentWeight(residual, noise_, kFreedom) * residual * residual / 3;
     }
   }
   const double square = (sum + kUsualNoiseReadings * usual * usual) /
@@ -227,7 +217,7 @@ double ProbeFit::Cost(const std::vector<LogLight>& factors, const PlaneError& pl
     double sum = 0.0;
     for (int c = 0; c < 3; ++c) {
       const double light = std::log(lit.sun[c] + lit.sky[c]);
-      sum += StudentCost(reading.log_linear[c] - unknowns_[c] - light, noise_);
+      sum += StudentCost(reading.log_linear[c] - unknowns_[c] - light, noise_, kFreedom);
     }
     // Channels err alike: together they count as one reading.
     sum *= independent[reading.frame] / 3;

@@ -37,7 +37,7 @@ class ProbeFit {
   bool empty() const { return readings_.empty(); }
   std::size_t plane() const { return plane_; }
   /// True if the phantoms let most of the sun through to it.
-  bool IsSunlit() const { return light_.direct.g > 0.0 && light_.sun_visibility > 0.5; }
+  bool IsSunlit() const { return light_.IsSunlit(); }
   /// Share of the sun in its light, as modelled for the recording: mean of the channels.
   double SunShare() const;
   const std::vector<ProbeReading>& readings() const { return readings_; }

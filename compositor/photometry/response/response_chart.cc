@@ -75,10 +75,6 @@ std::vector<std::uint8_t> Usable(const std::vector<LightProbe>& probes,
   return usable;
 }
 
-bool IsSunlit(const ProbeLight& light) {
-  return light.direct.g > 0.0 && light.sun_visibility > 0.5;
-}
-
 ResponseChart::Surface KindOf(int surface) {
   if (surface == kMarkerWhite) return ResponseChart::Surface::kWhite;
   return surface == kMarkerBlack ? ResponseChart::Surface::kBlack
@@ -105,7 +101,7 @@ ResponseChart CollectResponseChart(const std::vector<ProbedFrame>& probed,
     for (std::size_t k = 0; k < frame.probes.size(); ++k) {
       const std::uint32_t i = frame.probes[k];
       if (usable[i] == 0) continue;
-      fields[{probes[i].surface, PlaneOf(0, probes[i].normal).second, IsSunlit(light[i])}]
+      fields[{probes[i].surface, PlaneOf(0, probes[i].normal).second, light[i].IsSunlit()}]
           .push_back(k);
     }
     for (const auto& [key, entries] : fields) {

@@ -10,8 +10,9 @@
 
 namespace pleinair::compositor {
 
-/// A surface in one light, with its described color and its brightness in one frame. Fields serve
-/// like those of a color chart: they show which light the camera gives which pixel value.
+/// Surface of one normal, all in the sun or all in shade, as one frame shows it. Its described
+/// color and the modelled light show which light has which pixel value, like the fields of a color
+/// chart.
 struct ChartField {
   std::size_t frame = 0;    ///< Index of the frame among those of the chart.
   std::size_t surface = 0;  ///< Index of the surface among those of the chart.

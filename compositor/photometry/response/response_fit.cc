@@ -12,6 +12,7 @@
 
 #include "base/quantile.h"
 #include "base/srgb.h"
+#include "compositor/photometry/student_distribution.h"
 
 namespace pleinair::compositor {
 namespace {
@@ -75,15 +76,9 @@ Eigen::Matrix3d ChannelPrecision(double common, double own) {
   return covariance.inverse();
 }
 
-double StudentCost(double value, double scale, double freedom) {
-  const double z = value / scale;
-  return 0.5 * (freedom + 1.0) * std::log1p(z * z / freedom);
-}
-
 /// Inverse variance of a value in iteratively reweighted least squares.
 double StudentPrecision(double value, double scale, double freedom) {
-  const double z = value / scale;
-  return (freedom + 1.0) / (freedom + z * z) / (scale * scale);
+  return StudentWeight(value, scale, freedom) / (scale * scale);
 }
 
 /// One hypothesis: with a free curve or sRGB, with a sun or without.

@@ -143,6 +143,13 @@ TEST(LightChanges, FollowACloudOverACameraThatMovesOn) {
   };
   const LightChanges found = Follow(UnderACloud, {}, {}, 100'000, pan);
   EXPECT_LE(ErrorsOf(found, UnderACloud).largest, 0.3);
+  double off = 0.0;
+  for (int frame = 0; frame < kFrames; ++frame) {
+    const Moment now = UnderACloud(frame);
+    off = found.frames[frame].LogRatio() - std::log(now.sun / now.sky);
+  }
+  RecordProperty("ratio_off", std::to_string(off));
+  RecordProperty("ratio_error", std::to_string(found.frames.back().log_ratio_error));
   // Errors add up from surface to surface.
   const LightChanges unmoved = Follow(UnderACloud);
   EXPECT_GE(found.frames.back().log_ratio_error, 2 * unmoved.frames.back().log_ratio_error);

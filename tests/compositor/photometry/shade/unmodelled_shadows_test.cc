@@ -159,6 +159,7 @@ TEST_F(ShadowLight, MapsNoShadeWherePavingHasDarkJoints) {
   for (int column = -60; column <= 30; ++column) {
     for (int row = -40; row <= 10; ++row) {
       const Vec3 ground{0.02 * column, 0.02 * row, 0.0};
+      // Look() takes no exposure from the marker, so that its white counts for nothing here.
       const bool on_marker = std::max(std::fabs(ground.x), std::fabs(ground.y)) < 0.22;
       const bool beside_tree = std::fabs(ground.x + 0.9) < 0.15;
       if (on_marker || beside_tree || yard_->IsBesideShadowEdge(ground)) continue;
