@@ -8,6 +8,8 @@ namespace {
 /// A patch is buried if more than this fraction of its rays hit the inside of bodies. Outside, the
 /// fraction is 0, except for rays that slip through an edge; inside, it is a half or more.
 constexpr double kBuriedShare = 0.25;
+// The same for a patch that gathers over an area, some of which may be buried.
+constexpr double kBuriedShareOfArea = 0.75;
 
 /// Flags sides of phantoms that face the earth: they see neither the sky nor much else.
 std::vector<std::uint8_t> EarthwardPatches(const PatchScene& scene, const FinalGather& gathered) {
@@ -37,6 +39,7 @@ std::array<std::vector<std::uint8_t>, 2> FindBuriedPatches(const PatchScene& sce
         gathered, block,
         [&](std::uint32_t patch, const FinalGather::Hit* first, const FinalGather::Hit* last) {
           std::array<std::uint32_t, 2> count = gathered.patches[patch].buried_rays;
+          const double share = scene.SampleCount(patch) == 1 ? kBuriedShare : kBuriedShareOfArea;
           for (const FinalGather::Hit* hit = first; hit != last; ++hit) {
             if (hit->back == 0 && hit->close == 0) continue;
             const auto corners = CornersOf(scene.faces[hit->face], *hit);
@@ -48,7 +51,7 @@ std::array<std::vector<std::uint8_t>, 2> FindBuriedPatches(const PatchScene& sce
             count[1] += hit->without;
           }
           for (const int k : {0, 1}) {
-            buried_patches[k][patch] = count[k] > kBuriedShare * gathered.rays;
+            buried_patches[k][patch] = count[k] > share * gathered.rays;
           }
         });
   });

@@ -37,11 +37,9 @@ class Gatherer {
 
   FinalGather::Patch GatherPatch(std::uint32_t patch, FinalGather::Block* block) const {
     FinalGather::Patch light;
-    const std::uint32_t first = patch == 0 ? 0 : scene_.surface_sample_ends[patch - 1];
-    const std::uint32_t surface_samples = scene_.surface_sample_ends[patch] - first;
     const bool phantom = is_phantom_[patch];
-    const bool land_alone = surface_samples == 1 && phantom && has_twin_[patch] != 0 &&
-                            SeesLandAlone(scene_.surface_samples[first], patch);
+    const bool land_alone = scene_.SampleCount(patch) == 1 && phantom && has_twin_[patch] != 0 &&
+                            SeesLandAlone(scene_.AnyPatchSample(patch, 0), patch);
     for (int i = 0; i < rays_; ++i) {
       const auto ray = static_cast<std::uint32_t>(i);
       // A patch with many surface samples gathers their mean.
@@ -133,7 +131,8 @@ class Gatherer {
     record.with = with;
     record.without = without;
     record.back = hit.back;
-    record.close = hit.distance_m < kLayerGapM && scene_.mesh_sides[face.mesh_side].mesh.is_phantom;
+    // Without the objects there are phantoms alone.
+    record.close = without && hit.distance_m < kLayerGapM;
     record.u = Quantized(hit.u);
     record.v = Quantized(hit.v);
     const Vec3 normal = hit.back ? -face.normal : face.normal;
@@ -213,7 +212,6 @@ PatchLight SolveRadiosity(const PatchScene& scene, const FinalGather& gathered,
                           int threads) {
   constexpr float kPi = std::numbers::pi_v<float>;
   const auto inside = FindBuriedPatches(scene, gathered, threads);
-  const float weight = kPi / static_cast<float>(gathered.rays);
   const auto sunlit_land = [&](std::uint32_t patch, int k) {
     std::array<float, 3> sum = gathered.sunlight_from_land;
     for (float& value : sum) value *= static_cast<float>(gathered.patches[patch].land_rays[k]);
@@ -224,6 +222,7 @@ PatchLight SolveRadiosity(const PatchScene& scene, const FinalGather& gathered,
     light.irradiance[k].resize(scene.patch_count);
     light.reflected[k].resize(scene.patch_count);
     for (std::uint32_t v = 0; v < scene.patch_count; ++v) {
+      const float weight = gathered.RayWeight(v, k);
       for (int c = 0; c < 3; ++c) {
         light.irradiance[k][v][c] = gathered.patches[v].sky[k][c] * weight;
         light.reflected[k][v][c] = sunlit_land(v, k)[c] * weight;
@@ -261,6 +260,7 @@ PatchLight SolveRadiosity(const PatchScene& scene, const FinalGather& gathered,
           }
         }
         for (const int k : {0, 1}) {
+          const float weight = gathered.RayWeight(patch, k);
           for (int c = 0; c < 3; ++c) {
             light.irradiance[k][patch][c] = sum[k][c] * weight;
             light.reflected[k][patch][c] = of_sun[k][c] * weight;

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <numbers>
 #include <vector>
 
 #include "compositor/light/patch_scene.h"
@@ -55,6 +57,14 @@ struct FinalGather {
   std::array<float, 3> sunlight_from_land{};        ///< SkyTable::sunlight_from_land().
   std::vector<Patch> patches;
   std::vector<Block> blocks;
+
+  /// Irradiance per radiance of one ray. Rays that hit the inside of a body take no part: some of
+  /// the patch lies inside, and the rest of it represents it.
+  float RayWeight(std::uint32_t patch, int k) const {
+    const std::uint32_t buried = patches[patch].buried_rays[static_cast<std::size_t>(k)];
+    const std::uint32_t outside = static_cast<std::uint32_t>(rays) - buried;
+    return std::numbers::pi_v<float> / static_cast<float>(std::max(1U, outside));
+  }
 };
 
 /// Traces `rays` cosine-weighted rays from every patch. A ray that hits a phantom first serves both

@@ -8,6 +8,8 @@
 #include "base/error.h"
 #include "base/srgb.h"
 #include "compositor/light/foliage.h"
+#include "compositor/light/gather_origin.h"
+#include "compositor/light/light_refinement.h"
 #include "compositor/light/light_solver_options.h"
 #include "compositor/light/tessellation.h"
 #include "compositor/models/model.h"
@@ -113,30 +115,12 @@ SurfaceMesh OtherSide(const SurfaceMesh& mesh) {
   return other;
 }
 
-/// Corners of bodies on the ground lie in the ground's plane, where a ray may start on either side.
-/// Origins are therefore pulled towards the centres of the adjacent triangles.
 std::vector<Vec3> GatherOrigins(const SurfaceMesh& mesh) {
-  constexpr double kPull = 0.1;
-  constexpr double kMaxPull_m = 4e-3;
-  std::vector<Vec3> centre_sum(mesh.positions.size());
-  std::vector<double> count(mesh.positions.size());
-  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-    Vec3 centre;
-    for (int c = 0; c < 3; ++c) {
-      centre = centre + ToVec3(mesh.positions[mesh.indices[i + c]]) * (1.0 / 3.0);
-    }
-    for (int c = 0; c < 3; ++c) {
-      centre_sum[mesh.indices[i + c]] = centre_sum[mesh.indices[i + c]] + centre;
-      ++count[mesh.indices[i + c]];
-    }
-  }
+  const std::vector<Vec3> centres = CentresAround(mesh);
   std::vector<Vec3> origins;
-  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-    const Vec3 position = ToVec3(mesh.positions[v]);
-    Vec3 pull;
-    if (count[v] > 0.0) pull = (centre_sum[v] * (1.0 / count[v]) - position) * kPull;
-    if (const double length = Norm(pull); length > kMaxPull_m) pull = pull * (kMaxPull_m / length);
-    origins.push_back(position + pull + ToVec3(mesh.normals[v]) * kRayOffset_m);
+  origins.reserve(mesh.positions.size());
+  for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
+    origins.push_back(GatherOrigin(SurfacePointAt(mesh, v), centres[v]));
   }
   return origins;
 }
@@ -183,25 +167,26 @@ void AddSheet(SurfaceMesh mesh, const std::array<float, 3>& albedo,
   scene->mesh_sides.push_back(std::move(mesh_side));
 }
 
-void AddFaces(const SurfaceMesh& mesh, const SurfacePatches* groups, std::uint32_t mesh_side,
-              PatchScene* scene) {
+/// `indices`: the triangles that rays hit. Their corners are vertices of the mesh.
+void AddFaces(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& indices,
+              const SurfacePatches* groups, std::uint32_t mesh_side, PatchScene* scene) {
   const std::uint32_t base = scene->patch_count;
   const auto size =
       groups != nullptr ? groups->count : static_cast<std::uint32_t>(mesh.positions.size());
   scene->first_face.push_back(static_cast<std::uint32_t>(scene->faces.size()));
-  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+  for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
     PatchScene::Face face;
     std::array<Vec3, 3> p;
     for (int c = 0; c < 3; ++c) {
-      p[c] = ToVec3(mesh.positions[mesh.indices[i + c]]);
-      const std::uint32_t vertex = mesh.indices[i + c];
+      p[c] = ToVec3(mesh.positions[indices[i + c]]);
+      const std::uint32_t vertex = indices[i + c];
       face.patches[c] = base + (groups != nullptr ? groups->patch_of[vertex] : vertex);
     }
     face.back_offset = mesh.closed ? 0 : size;
     face.mesh_side = mesh_side;
     const Vec3 normal = Cross(p[1] - p[0], p[2] - p[0]);
     const double norm = Norm(normal);
-    face.normal = norm > 0.0 ? normal * (1.0 / norm) : ToVec3(mesh.normals[mesh.indices[i]]);
+    face.normal = norm > 0.0 ? normal * (1.0 / norm) : ToVec3(mesh.normals[indices[i]]);
     scene->faces.push_back(face);
   }
 }
@@ -245,11 +230,24 @@ Result<PatchScene> PatchScene::Create(const std::vector<PlacedModel>& models,
   // Surfaces that are already fine must not keep others from being subdivided.
   if (vertices > options.max_patches) tessellation.max_vertices += vertices;
   Tessellate(tessellation, &surfaces);
-  std::vector<SurfacePatches> divided =
-      DividedIntoPatches(surfaces, tessellation, options.max_patches, options.threads);
-
   PatchScene scene;
   std::vector<RayMesh> ray_meshes, leaf_meshes;
+  std::vector<SurfaceOfRays> surfaces_of_rays;
+  for (std::uint32_t i = 0; i < surfaces.size(); ++i) {
+    const SurfaceMesh& surface = surfaces[i];
+    const RayMesh mesh{surface.positions, surface.indices, surface.is_phantom};
+    if (surface.role != MeshRole::kRenderOnly) {
+      surfaces_of_rays.push_back({i, surface.closed});
+      ray_meshes.push_back(mesh);
+    } else if (surface.is_phantom) {
+      leaf_meshes.push_back(mesh);
+    }
+  }
+  PLEINAIR_ASSIGN_OR_RETURN(scene.rays, RayScene::Create(ray_meshes, LargestModel(models)));
+  RefineForLight(*scene.rays, surfaces_of_rays, options.near_edge_m, options.threads, &surfaces);
+  std::vector<SurfacePatches> divided =
+      DividedIntoPatches(surfaces, tessellation, options.max_patches, options.threads);
+  std::size_t next_ray_mesh = 0;
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
     SurfaceMesh& surface = surfaces[i];
     std::shared_ptr<const SurfacePatches> groups;
@@ -259,12 +257,9 @@ Result<PatchScene> PatchScene::Create(const std::vector<PlacedModel>& models,
     const std::array<float, 3> albedo =
         ReflectanceOf(*models[surface.placed_model].model, surface.material);
     const auto front = static_cast<int>(scene.mesh_sides.size());
-    if (surface.role == MeshRole::kRenderOnly && surface.is_phantom) {
-      leaf_meshes.push_back({surface.positions, surface.indices, true});
-    }
     if (surface.role != MeshRole::kRenderOnly) {
-      ray_meshes.push_back({surface.positions, surface.indices, surface.is_phantom});
-      AddFaces(surface, groups.get(), static_cast<std::uint32_t>(front), &scene);
+      AddFaces(surface, ray_meshes[next_ray_mesh++].indices, groups.get(),
+               static_cast<std::uint32_t>(front), &scene);
     }
     const bool closed = surface.closed;
     SurfaceMesh back = closed ? SurfaceMesh{} : OtherSide(surface);
@@ -281,7 +276,6 @@ Result<PatchScene> PatchScene::Create(const std::vector<PlacedModel>& models,
                       "subdivided for the light",
                       "use simpler models");
   }
-  PLEINAIR_ASSIGN_OR_RETURN(scene.rays, RayScene::Create(ray_meshes, LargestModel(models)));
   if (!leaf_meshes.empty()) {
     PLEINAIR_ASSIGN_OR_RETURN(scene.foliage, RayScene::Create(leaf_meshes, LargestModel(models)));
   }

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/vector.h"
+#include "compositor/light/gather_origin.h"
 #include "compositor/light/ray_scene.h"
 #include "compositor/light/surface_patches.h"
 #include "compositor/models/surface_orientation.h"
@@ -45,7 +46,7 @@ struct PatchScene {
   };
 
   std::vector<MeshSide> mesh_sides;
-  std::vector<Face> faces;                ///< Without render-only geometry.
+  std::vector<Face> faces;                ///< That rays hit; without render-only geometry.
   std::vector<std::uint32_t> first_face;  ///< One entry per mesh of the ray scene.
   std::uint32_t patch_count = 0;
   std::vector<PatchSample> surface_samples;        ///< Grouped by patch.
@@ -55,10 +56,17 @@ struct PatchScene {
 
   const Face& FaceOf(const RayHit& hit) const { return faces[first_face[hit.mesh] + hit.triangle]; }
 
+  /// Index of a patch's first surface sample, and the number of them.
+  std::uint32_t FirstSample(std::uint32_t patch) const {
+    return patch == 0 ? 0 : surface_sample_ends[patch - 1];
+  }
+  std::uint32_t SampleCount(std::uint32_t patch) const {
+    return surface_sample_ends[patch] - FirstSample(patch);
+  }
+
   /// Selects one of a patch's surface samples by a hash.
   const PatchSample& AnyPatchSample(std::uint32_t patch, std::uint32_t hash) const {
-    const std::uint32_t first = patch == 0 ? 0 : surface_sample_ends[patch - 1];
-    return surface_samples[first + hash % (surface_sample_ends[patch] - first)];
+    return surface_samples[FirstSample(patch) + hash % SampleCount(patch)];
   }
 
   /// One flag per patch.
@@ -78,8 +86,5 @@ struct PatchScene {
   static Result<PatchScene> Create(const std::vector<PlacedModel>& models,
                                    const LightSolverOptions& options);
 };
-
-/// How far rays start above a surface, metres.
-inline constexpr double kRayOffset_m = 3e-4;
 
 }  // namespace pleinair::compositor

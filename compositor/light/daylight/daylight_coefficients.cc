@@ -29,7 +29,7 @@ constexpr double kShareOfRays = 0.35;  // Share of the time, for the progress.
 /// Increase it whenever the result for the same geometry and options changes: rays, sampling, sky
 /// patches, reflections, codes. Otherwise cached results of an older version are used. The file's
 /// header has its own version of the format.
-constexpr std::uint64_t kMethodVersion = 2;
+constexpr std::uint64_t kMethodVersion = 3;
 
 constexpr std::uint32_t kFineSalt = 0xF1;
 
@@ -44,8 +44,7 @@ class Transfer {
         patches_(patches),
         is_phantom_(scene.ArePhantoms()),
         threads_(threads),
-        inside_(FindBuriedPatches(scene, gathered, threads)),
-        weight_(std::numbers::pi_v<float> / static_cast<float>(gathered.rays)) {}
+        inside_(FindBuriedPatches(scene, gathered, threads)) {}
 
   /// Computes one chunk of patches in one case (0: with the objects, 1: without). Returns the
   /// number of reflections.
@@ -100,16 +99,16 @@ class Transfer {
       const FinalGather::Block& block = gathered_.blocks[index];
       std::uint32_t at = 0;
       for (std::size_t i = 0; i < block.escape_ends.size(); ++i) {
-        Straight& light = straight[index * FinalGather::kBlockSize + i];
+        const auto patch = static_cast<std::uint32_t>(index * FinalGather::kBlockSize + i);
+        Straight& light = straight[patch];
         for (; at < block.escape_ends[i]; ++at) {
           const FinalGather::Escape& escape = block.escapes[at];
           if (escape.patch / kP != chunk || (k == 0 ? escape.with : escape.without) == 0) continue;
           if (fine && escape.patch != patches_.land()) continue;
-          light[escape.patch % kP] += weight_;
+          light[escape.patch % kP] += gathered_.RayWeight(patch, k);
         }
         if (fine) {
-          AddFinePatches(static_cast<std::uint32_t>(index * FinalGather::kBlockSize + i), chunk, k,
-                         &light);
+          AddFinePatches(patch, chunk, k, &light);
         }
       }
     });
@@ -143,6 +142,7 @@ class Transfer {
           gathered_, index,
           [&](std::uint32_t patch, const FinalGather::Hit* first, const FinalGather::Hit* last) {
             places.clear();
+            const float factor = kInvPi * gathered_.RayWeight(patch, k);
             for (const FinalGather::Hit* hit = first; hit != last; ++hit) {
               if ((k == 0 ? hit->with : hit->without) == 0) continue;
               const PatchScene::Face& face = scene_.faces[hit->face];
@@ -150,7 +150,6 @@ class Transfer {
               const float u = static_cast<float>(hit->u) / 65535.0F;
               const float v = static_cast<float>(hit->v) / 65535.0F;
               const auto& albedo = scene_.mesh_sides[face.mesh_side].albedo;
-              const float factor = kInvPi * weight_;
               places.push_back(
                   {{&arriving[corners[0]], &arriving[corners[1]], &arriving[corners[2]]},
                    {1.0F - u - v, u, v},
@@ -168,7 +167,6 @@ class Transfer {
   std::vector<std::uint8_t> is_phantom_;
   int threads_;
   std::array<std::vector<std::uint8_t>, 2> inside_;
-  float weight_;
 };
 
 }  // namespace

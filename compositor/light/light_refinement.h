@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "compositor/light/ray_scene.h"
+#include "compositor/models/surface_orientation.h"
+
+namespace pleinair::compositor {
+
+/// The surface of a mesh of the ray scene.
+struct SurfaceOfRays {
+  std::uint32_t surface = 0;  ///< Index into the surfaces.
+  bool closed = false;
+};
+
+/// Splits edges of virtual objects where the light changes along them, so that light stored at
+/// vertices does not depend on the mesh. The shape does not change.
+///
+/// Rays estimate the openness of the ends and the middle of an edge: the share of the light from a
+/// uniform surrounding that arrives, with surfaces reflecting a fraction. The edge is split if the
+/// middle differs from the mean of the ends by more than a threshold, or if only some of the three
+/// points lie inside a body. The threshold grows as edges get shorter. Edges at the same place are
+/// split together, whatever their meshes and normals.
+///
+/// `surfaces`: those of the ray scene, not yet refined. New vertices follow the old ones.
+/// `max_edge_m`: longest edge that is fine for an object of any size.
+void RefineForLight(const RayScene& rays, const std::vector<SurfaceOfRays>& surfaces_of_rays,
+                    double max_edge_m, int threads, std::vector<SurfaceMesh>* surfaces);
+
+}  // namespace pleinair::compositor
