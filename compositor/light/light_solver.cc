@@ -87,6 +87,8 @@ LitMesh MakeLitMesh(const PatchScene& scene, const PatchScene::MeshSide& mesh_si
   if (mesh.is_phantom) {
     mesh.ambient_without = scene.VertexLight(mesh_side, light.irradiance[1]);
     mesh.sunlight.reflected_without = scene.VertexLight(mesh_side, light.reflected[1]);
+  } else {
+    mesh.sunlight.lifts = OutwardLifts(mesh_side.mesh);
   }
   return mesh;
 }

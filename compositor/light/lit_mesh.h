@@ -26,6 +26,9 @@ struct MeshSunlight {
   /// The part of LitMesh::ambient_with and ambient_without that is reflected sunlight. The rest
   /// comes from the sky. Empty: none of it.
   std::vector<std::array<float, 3>> reflected_with, reflected_without;
+  /// From a virtual object's vertices to the curved surface that its normals describe, where that
+  /// lies outside the triangles (SurfaceMesh::lifts). Empty: zero.
+  std::vector<std::array<float, 3>> lifts;
 };
 
 /// A tessellated surface with the irradiance at its vertices, without direct sunlight. Marker

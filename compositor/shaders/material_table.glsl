@@ -28,11 +28,13 @@ MaterialRecord RecordOf(int surface) {
 
 BufferVertex Moved(BufferVertex vertex, MaterialRecord record) {
   vec4 place = vec4(vertex.position_m, 1.0);
-  vec3 normal = vertex.normal;
+  vec3 normal = vertex.normal, lift = vertex.ambient_without;
   vertex.position_m =
       vec3(dot(record.row_x, place), dot(record.row_y, place), dot(record.row_z, place));
   vertex.normal = vec3(dot(record.row_x.xyz, normal), dot(record.row_y.xyz, normal),
                        dot(record.row_z.xyz, normal));
+  vertex.ambient_without =
+      vec3(dot(record.row_x.xyz, lift), dot(record.row_y.xyz, lift), dot(record.row_z.xyz, lift));
   return vertex;
 }
 

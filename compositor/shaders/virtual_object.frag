@@ -105,7 +105,13 @@ vec3 ColorOf(VisibleSurface surface, MaterialRecord record) {
   vec3 sun = vec3(0.0);
 #else
   float n_dot_l = max(dot(surface.normal, u_to_sun), 0.0);
-  float visibility = ShadowVisibility(1, surface.position_m, surface.flat_normal, surface.step_x,
+  // A coarse mesh with smooth normals represents a curved surface. The sun shines on that, also
+  // where its triangles already face away.
+  vec3 lift = surface.lift + surface.ambient_without;
+  bool curved = dot(lift, surface.normal) > 0.0 &&
+                dot(surface.normal, u_to_sun) > dot(surface.flat_normal, u_to_sun);
+  float visibility = ShadowVisibility(1, surface.position_m + lift,
+                                      curved ? surface.normal : surface.flat_normal, surface.step_x,
                                       surface.step_y);
   visibility *= SunTransmittance(surface.position_m);
   vec3 sun = u_sun_normal_lux * (visibility * n_dot_l);

@@ -18,7 +18,8 @@ uvec4 TriangleOf(uint id) {
 float ValueOfComponent(int component) { return texelFetch(u_component_values, TexelOfTriangle(component), 0).r; }
 
 struct BufferVertex {
-  vec3 position_m, normal, ambient_with, ambient_without;
+  vec3 position_m, normal, ambient_with;
+  vec3 ambient_without;  // Of a virtual object: its lift (MeshSunlight::lifts).
 };
 
 BufferVertex VertexOf(uint vertex) {

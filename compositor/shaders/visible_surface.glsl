@@ -17,7 +17,14 @@ struct VisibleSurface {
   vec3 flat_normal;  // Normal of the triangle on the side of `normal`; unit.
   vec3 step_x, step_y;  // Change of the position to the next pixel, metres.
   vec3 ambient_with, ambient_without;
+  vec3 lift;  // To the curved surface that the normals describe, where that is farther out.
 };
+
+// Share of the way from a point of a triangle to the tangent plane of one of its corners, if that
+// lies above (Hanika 2021, "Hacking the shadow terminator", Ray Tracing Gems II).
+vec3 Bulge(BufferVertex corner, vec3 point, float share) {
+  return share * max(dot(corner.position_m - point, corner.normal), 0.0) * corner.normal;
+}
 
 VisibleSurface VisibleSurfaceOf(BufferVertex a, BufferVertex b, BufferVertex c, vec2 pixel) {
   vec3 ab = b.position_m - a.position_m, ac = c.position_m - a.position_m;
@@ -47,6 +54,7 @@ VisibleSurface VisibleSurfaceOf(BufferVertex a, BufferVertex b, BufferVertex c, 
   seen.flat_normal = size > 1e-20 ? (dot(across, seen.normal) < 0.0 ? -across : across) / size : seen.normal;
   seen.ambient_with = mat3(a.ambient_with, b.ambient_with, c.ambient_with) * share;
   seen.ambient_without = mat3(a.ambient_without, b.ambient_without, c.ambient_without) * share;
+  seen.lift = Bulge(a, inside, share.x) + Bulge(b, inside, share.y) + Bulge(c, inside, share.z);
   return seen;
 }
 

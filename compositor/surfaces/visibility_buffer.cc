@@ -70,9 +70,11 @@ Result<void> VisibilityBuffer::SetLight(std::span<const LitMesh* const> meshes,
       const auto& [nx, ny, nz] = mesh->normals[i];
       const auto [r, g, b] = mesh->AmbientWith(i, mix);
       // Virtual objects have no light in the case without them.
-      const auto [r0, g0, b0] =
-          mesh->is_phantom ? mesh->AmbientWithout(i, mix) : mesh->AmbientWith(i, mix);
-      vertices.insert(vertices.end(), {{x, y, z, nx}, {r, g, b, ny}, {r0, g0, b0, nz}});
+      const auto& lifts = mesh->sunlight.lifts;
+      const auto [u, v, w] = mesh->is_phantom ? mesh->AmbientWithout(i, mix)
+                             : lifts.empty()  ? std::array<float, 3>{}
+                                              : lifts[i];
+      vertices.insert(vertices.end(), {{x, y, z, nx}, {r, g, b, ny}, {u, v, w, nz}});
     }
   }
   return UploadRows(vertices, kVerticesPerRow * kTexelsPerVertex, GL_RGBA32F, GL_RGBA, GL_FLOAT,
