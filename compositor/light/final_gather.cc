@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "base/parallel_for.h"
 #include "compositor/light/buried_patches.h"
@@ -163,6 +164,56 @@ class Gatherer {
   std::vector<std::uint8_t> is_phantom_, has_twin_;  ///< One entry per patch.
 };
 
+using PatchValues = std::vector<std::array<float, 3>>;
+
+/// Adds to `last` of the virtual objects the reflections that were not followed: a geometric series
+/// with the scene's mean ratio of the last two increments. The ratio of a single patch would be no
+/// estimate: the patch may see surfaces that see sunlit ones, but no sunlit one. `first` and
+/// `second` have two reflections and one less than `last`.
+void Extrapolate(const std::vector<std::uint8_t>& is_phantom, const PatchValues& first,
+                 const PatchValues& second, PatchValues* last) {
+  // Reached where surfaces are white and see nothing else.
+  constexpr double kMaxRatio = 0.9;
+  for (std::size_t c = 0; c < 3; ++c) {
+    double earlier = 0.0, added = 0.0;
+    for (std::size_t patch = 0; patch < last->size(); ++patch) {
+      earlier += second[patch][c] - first[patch][c];
+      added += (*last)[patch][c] - second[patch][c];
+    }
+    if (!(earlier > 0.0 && added > 0.0)) continue;
+    const double ratio = std::min(added / earlier, kMaxRatio);
+    const auto share = static_cast<float>(ratio / (1.0 - ratio));
+    for (std::size_t patch = 0; patch < last->size(); ++patch) {
+      float& value = (*last)[patch][c];
+      if (is_phantom[patch] == 0) value += share * std::max(0.0F, value - second[patch][c]);
+    }
+  }
+}
+
+/// The part of the objects' case that is not reflected sunlight.
+PatchValues OfSky(const PatchLight& light) {
+  PatchValues values = light.irradiance[0];
+  for (std::size_t patch = 0; patch < values.size(); ++patch) {
+    for (std::size_t c = 0; c < 3; ++c) values[patch][c] -= light.reflected[0][patch][c];
+  }
+  return values;
+}
+
+/// Sky and sun are extrapolated apart, so that their light adds up.
+void AddUnfollowed(const PatchScene& scene, const PatchLight& before, const PatchLight& previous,
+                   PatchLight* light) {
+  const std::vector<std::uint8_t> is_phantom = scene.ArePhantoms();
+  PatchValues of_sky = OfSky(*light);
+  Extrapolate(is_phantom, OfSky(before), OfSky(previous), &of_sky);
+  Extrapolate(is_phantom, before.reflected[0], previous.reflected[0], &light->reflected[0]);
+  for (std::size_t patch = 0; patch < of_sky.size(); ++patch) {
+    if (is_phantom[patch] != 0) continue;
+    for (std::size_t c = 0; c < 3; ++c) {
+      light->irradiance[0][patch][c] = of_sky[patch][c] + light->reflected[0][patch][c];
+    }
+  }
+}
+
 std::size_t BlockCount(std::uint32_t patches) {
   return (patches + FinalGather::kBlockSize - 1) / FinalGather::kBlockSize;
 }
@@ -231,8 +282,9 @@ PatchLight SolveRadiosity(const PatchScene& scene, const FinalGather& gathered,
     FillFromNeighbours(scene, inside[k], &light.irradiance[k]);
     FillFromNeighbours(scene, inside[k], &light.reflected[k]);
   }
+  PatchLight previous, before;
   for (int bounce = 0; bounce < bounces; ++bounce) {
-    const PatchLight previous = light;
+    before = std::exchange(previous, light);
     ParallelFor(gathered.blocks.size(), threads, [&](std::size_t block) {
       ForEachPatch(gathered, block, [&](std::uint32_t patch, const Hit* first, const Hit* last) {
         auto sum = gathered.patches[patch].sky;
@@ -273,6 +325,7 @@ PatchLight SolveRadiosity(const PatchScene& scene, const FinalGather& gathered,
       FillFromNeighbours(scene, inside[k], &light.reflected[k]);
     }
   }
+  if (bounces >= 2) AddUnfollowed(scene, before, previous, &light);
   return light;
 }
 
