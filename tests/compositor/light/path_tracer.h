@@ -41,6 +41,15 @@ class PathTracer {
     land_ = level * (kLandAlbedo / std::numbers::pi);
   }
 
+  /// Returns whether the sun's ray from `to_sun` reaches the point.
+  bool IsLitFrom(Vec3 to_sun, Vec3 point) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRay ray = Ray(point, to_sun);
+    rtcOccluded1(scene_.get(), &context, &ray);
+    return ray.tfar > 0.0F;
+  }
+
   /// Irradiance of a surface element at `point` with `normal`, without direct sun: the mean over
   /// `strata`² paths. Each starts in its own stratum of the hemisphere.
   LinearRgb Irradiance(Point<Marker> point, Vec3 normal, int strata, std::uint32_t seed) const {
@@ -105,14 +114,6 @@ class PathTracer {
     return ray;
   }
 
-  bool IsLitBySun(Vec3 point) const {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    RTCRay ray = Ray(point, day_.ToSun().xyz);
-    rtcOccluded1(scene_.get(), &context, &ray);
-    return ray.tfar > 0.0F;
-  }
-
   LinearRgb Radiance(Vec3 from, Vec3 way, Random* random) const {
     LinearRgb sum, share{1.0, 1.0, 1.0};
     while (true) {
@@ -131,7 +132,7 @@ class PathTracer {
       const LinearRgb albedo = albedos_[hit.hit.geomID];
       share = share * albedo;
       const double cosine = Dot(normal, day_.ToSun().xyz);
-      if (cosine > 0.0 && IsLitBySun(from)) {
+      if (cosine > 0.0 && IsLitFrom(day_.ToSun().xyz, from)) {
         sum = sum + share * day_.SunNormalIrradiance() * (cosine * std::numbers::inv_pi);
       }
       // Russian roulette: surviving paths are weighted for the ended ones.
