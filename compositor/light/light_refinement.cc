@@ -148,17 +148,17 @@ class Refined {
 
   /// Finds edges to split and adds them to `split`, which holds pairs of places.
   void FindSplits(const Prober& prober, int threads, std::unordered_set<std::uint64_t>* split) {
-    const std::vector<Edge> edges = LongEdges();
+    std::vector<Edge> edges = LongEdges();
     if (edges.empty()) return;
     const std::vector<Vec3> centres = CentresAround(*mesh_);
     ProbeEnds(prober, edges, centres, threads);
+    for (const Edge& edge : edges) settled_.insert(PlacesOf(edge));
+    std::erase_if(edges, [&](const Edge& edge) { return !IsDoubtful(edge); });
+    ProbeEndsFinely(prober, edges, centres, threads);
     std::vector<std::uint8_t> splits(edges.size());
-    ForEach(edges.size(), threads,
-            [&](std::size_t i) { splits[i] = IsSplit(prober, edges[i], centres); });
+    ForEach(edges.size(), threads, [&](std::size_t i) { splits[i] = IsSplit(prober, edges[i]); });
     for (std::size_t i = 0; i < edges.size(); ++i) {
-      const std::uint64_t key = EdgeKey(place_of_[edges[i].a], place_of_[edges[i].b]);
-      settled_.insert(key);
-      if (splits[i] != 0) split->insert(key);
+      if (splits[i] != 0) split->insert(PlacesOf(edges[i]));
     }
   }
 
@@ -251,17 +251,45 @@ class Refined {
     return prober.Probe(SurfacePointAt(*mesh_, v), centres[v], mesh_->closed, rays);
   }
 
-  bool IsSplit(const Prober& prober, const Edge& edge, const std::vector<Vec3>& centres) const {
-    const double length = Length(mesh_->positions[edge.a], mesh_->positions[edge.b]) / fine_m_;
-    const double difference = Difference(probes_[probe_of_[edge.a]], probes_[probe_of_[edge.b]]);
-    const double threshold = length < 1.0 ? kMaxShortDifference : kMaxDifference;
-    if (length < kLong && difference < threshold) return false;
-    const BothSides a = ProbeVertex(prober, edge.a, centres, kRays);
-    const BothSides b = ProbeVertex(prober, edge.b, centres, kRays);
+  std::uint64_t PlacesOf(const Edge& edge) const {
+    return EdgeKey(place_of_[edge.a], place_of_[edge.b]);
+  }
+
+  /// Length in fine edges.
+  double LengthOf(const Edge& edge) const {
+    return Length(mesh_->positions[edge.a], mesh_->positions[edge.b]) / fine_m_;
+  }
+
+  /// Returns whether the light may change along the edge, by the coarse estimates.
+  bool IsDoubtful(const Edge& edge) const {
+    const double length = LengthOf(edge);
+    return length > kLong || Difference(probes_[probe_of_[edge.a]], probes_[probe_of_[edge.b]]) >
+                                 (length < 1.0 ? kMaxShortDifference : kMaxDifference);
+  }
+
+  void ProbeEndsFinely(const Prober& prober, const std::vector<Edge>& edges,
+                       const std::vector<Vec3>& centres, int threads) {
+    fine_probes_.resize(size());
+    is_fine_.resize(size());
+    std::vector<std::uint32_t> wanted;
+    for (const Edge& edge : edges) {
+      for (const std::uint32_t v : {edge.a, edge.b}) {
+        if (is_fine_[v] != 0) continue;
+        is_fine_[v] = 1;
+        wanted.push_back(v);
+      }
+    }
+    ForEach(wanted.size(), threads, [&](std::size_t i) {
+      fine_probes_[wanted[i]] = ProbeVertex(prober, wanted[i], centres, kRays);
+    });
+  }
+
+  bool IsSplit(const Prober& prober, const Edge& edge) const {
     const BothSides middle =
         prober.Probe(EdgeMiddle(*mesh_, edge.a, edge.b), edge.centre * (1.0 / edge.triangles),
                      mesh_->closed, kRays);
-    return Deviation(a, b, middle) > kMaxDeviation / std::clamp(length, 0.25, 2.0);
+    return Deviation(fine_probes_[edge.a], fine_probes_[edge.b], middle) >
+           kMaxDeviation / std::clamp(LengthOf(edge), 0.25, 2.0);
   }
 
   static constexpr std::uint32_t kNone = ~0U;
@@ -273,8 +301,21 @@ class Refined {
   std::vector<BothSides> probes_;                           ///< Coarse.
   std::vector<std::uint32_t> probe_of_;                     ///< By vertex; kNone: not estimated.
   std::unordered_map<std::uint64_t, std::uint32_t> alike_;  ///< Indices of `probes_`.
+  std::vector<BothSides> fine_probes_;                      ///< By vertex.
+  std::vector<std::uint8_t> is_fine_;                       ///< Whether it has one.
   std::unordered_set<std::uint64_t> settled_;               ///< Pairs of places, estimated before.
 };
+
+/// Returns whether any edge may be split. Most fine meshes have none.
+bool HasLongEdge(const SurfaceMesh& mesh, double fine_m) {
+  for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
+    const std::uint32_t next = mesh.indices[i % 3 == 2 ? i - 2 : i + 1];
+    if (Length(mesh.positions[mesh.indices[i]], mesh.positions[next]) >= kMinSplit * fine_m) {
+      return true;
+    }
+  }
+  return false;
+}
 
 /// Diagonals of the bounding boxes of the virtual objects.
 std::map<int, double> ObjectDiagonals(const std::vector<SurfaceMesh>& surfaces) {
@@ -306,6 +347,7 @@ void RefineForLight(const RayScene& rays, const std::vector<SurfaceOfRays>& surf
   for (SurfaceMesh& surface : *surfaces) {
     if (surface.is_phantom || surface.role != MeshRole::kAll) continue;
     const double fine_m = std::min(max_edge_m, kFineShare * diagonals.at(surface.placed_model));
+    if (!HasLongEdge(surface, fine_m)) continue;
     refined.emplace_back(&surface, fine_m, &places);
     before += surface.positions.size();
   }

@@ -1,14 +1,17 @@
 // Compares composed models with path-traced ones on a terrace, in sun, shade and under an overcast
 // sky:
 //
-//     object_light_benchmark [--flat] [--up-z] FILE…
+//     object_light_benchmark [--flat] [--up-z] [--sphere LEVEL…] FILE…
 //
-// Models are scaled to 22 cm. Without files, it compares the hard shapes of the tests. Each line
+// Models are scaled to 22 cm. A sphere has 20 · 4^LEVEL faces. Without files and spheres, it
+// compares the hard shapes of the tests. Each line
 // has the object's pixels; the share with a CIE76 difference above 8; the mean difference; the most
 // connected pixels below half of the true light; the brightness relative to the true one; the time
 // in which the light is prepared, in seconds.
+#include <array>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <limits>
 #include <memory>
 #include <string>
@@ -86,6 +89,12 @@ int Run(int count, char** arguments) {
       options.normals = NormalsMode::kFlat;
     } else if (argument == "--up-z") {
       up_z = true;
+    } else if (argument == "--sphere" && i + 1 < count) {
+      const int level = std::atoi(arguments[++i]);
+      const std::array shapes{testing::Icosphere(level).Placed({0.0, 0.0, 0.111}, 0.11)};
+      Compare({std::to_string(20 << (2 * level)) + " faces",
+               testing::ModelOf(shapes, options.normals)});
+      any = true;
     } else {
       auto model = LoadModel(argument, options);
       if (!model) {
