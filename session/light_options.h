@@ -1,7 +1,9 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
+#include "base/camera_response.h"
 #include "compositor/photometry/light_overrides.h"
 #include "scene/scene_description.h"
 
@@ -25,6 +27,8 @@ struct LightOptions {
   bool hands_in_front = false;
   /// Overrides the scene's; empty: as in the scene. kSrgbResponse: sRGB, whatever the frames show.
   std::filesystem::path camera_response;
+  /// By the film's tags; used where neither the user states a response nor the frames show another.
+  std::optional<CameraResponse> film_response;
   std::filesystem::path cache;  ///< Folder for daylight coefficients; empty: no cache.
   int sky_division = 1;  ///< Subdivision of Tregenza's patches: compositor::CoefficientOptions.
   double convergence = 0.01;  ///< compositor::CoefficientOptions.

@@ -30,8 +30,8 @@ struct ExposureHistory {
 
 /// What the frames show of the camera's response (compositor/photometry/response/response_fit.h).
 struct ResponseSummary {
-  /// kSrgb: the frames do not contradict it strongly.
-  enum class Source { kSrgb, kMeasured, kStated };
+  /// kSrgb and kFilm (the film's tags): the frames do not contradict it strongly.
+  enum class Source { kSrgb, kFilm, kMeasured, kStated };
   Source source = Source::kSrgb;
   /// Logarithm of the evidence for another curve over that for sRGB; 0 where nothing shows it.
   double log_evidence = 0.0;

@@ -249,8 +249,12 @@ Result<void> ComposeRecording(const std::filesystem::path& recording,
     return InputError(recording.string(), "has no scene",
                       "write one (docs/guide/reference/recordings.md) beside its frames");
   }
+  PipelineOptions by_film = options;
+  if (!by_film.light.film_response) {
+    by_film.light.film_response = devices::ResponseOf(opened.curve);
+  }
   PLEINAIR_ASSIGN_OR_RETURN(const std::unique_ptr<Pipeline> pipeline,
-                            Pipeline::Create(opened.camera, *opened.scene, options));
+                            Pipeline::Create(opened.camera, *opened.scene, by_film));
   PLEINAIR_RETURN_IF_ERROR(TrackRecording(*pipeline, std::move(opened)));
   PLEINAIR_ASSIGN_OR_RETURN(opened, devices::OpenRecording(recording));
   PLEINAIR_RETURN_IF_ERROR(EstimateLight(*pipeline, std::move(opened)));

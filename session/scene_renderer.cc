@@ -75,6 +75,10 @@ Result<std::unique_ptr<SceneRenderer>> SceneRenderer::Create(
   compositor::ComposerOptions composing = options;
   if (!scene.camera_response.empty()) {
     renderer->summary_.response.source = ResponseSummary::Source::kStated;
+  } else if (light.film_response && !light.film_response->IsSrgb()) {
+    renderer->summary_.response.source = ResponseSummary::Source::kFilm;
+    composing.response = *light.film_response;
+    renderer->response_ = composing.response;
   }
   if (!scene.camera_response.empty() && scene.camera_response != kSrgbResponse) {
     PLEINAIR_ASSIGN_OR_RETURN(composing.response,
@@ -125,8 +129,8 @@ Result<void> SceneRenderer::EstimateResponse(const std::set<std::int64_t>& frame
   if (!light_ || summary_.response.source == Source::kStated) return {};
   const auto found = light_->EstimateResponse(frames);
   if (!found || !found->usable) return {};
-  summary_.response = {found->conclusive ? Source::kMeasured : Source::kSrgb, found->log_evidence,
-                       found->log_error};
+  summary_.response = {found->conclusive ? Source::kMeasured : summary_.response.source,
+                       found->log_evidence, found->log_error};
   if (!found->conclusive) return {};
   response_ = found->response;
   return composer_->SetResponse(response_);

@@ -96,6 +96,7 @@ struct LiveSource {
   devices::LiveCamera* camera = nullptr;  ///< Null for a recording.
   CameraModel lens;
   std::optional<scene::SceneDescription> scene;
+  CameraResponse response = {};  ///< By a film's tags.
 };
 
 std::vector<devices::ControlRequest> ControlsOf(const LiveHolds& holds) {
@@ -155,7 +156,8 @@ Result<LiveSource> OpenFile(const devices::CameraUri& uri, const LiveArguments& 
                       "processes the recording once, as fast as this machine can, without a window",
                       "add --headless and leave --loop out");
   }
-  LiveSource source{std::move(recording.frames), nullptr, recording.camera, recording.scene};
+  LiveSource source{std::move(recording.frames), nullptr, recording.camera, recording.scene,
+                    devices::ResponseOf(recording.curve)};
   if (arguments.lossless) return source;
   const auto reopen = [path = uri.value,
                        options]() -> Result<std::unique_ptr<devices::FrameSource>> {
@@ -290,6 +292,7 @@ Result<void> RunLive(const CLI::App& command, const LiveArguments& arguments) {
   LiveOptions options;
   options.camera = source.lens;
   options.light = arguments.light;
+  options.light.film_response = source.response;
   options.scene = session::WithGiven(*source.scene, arguments.light);
   options.composer.show_shadow_maps = arguments.shadow_debug;
   const scene::SceneDescription scene = options.scene;

@@ -48,12 +48,15 @@ Result<void> Write(const ResponseArguments& arguments, const session::SceneRende
   using Source = session::ResponseSummary::Source;
   const session::ResponseSummary found = renderer.light().response;
   const bool measured = found.source == Source::kMeasured;
+  const bool by_film = found.source == Source::kFilm;
   if (!arguments.output.empty()) {
     PLEINAIR_RETURN_IF_ERROR(
         WriteFileAtomically(arguments.output, devices::CameraResponseText(renderer.response())));
   }
   if (arguments.json) {
-    nlohmann::ordered_json summary{{"response", measured ? "measured" : "srgb"},
+    nlohmann::ordered_json summary{{"response", measured  ? "measured"
+                                                : by_film ? "film"
+                                                          : "srgb"},
                                    {"evidence_log", found.log_evidence},
                                    {"light_relative_error", found.log_error}};
     if (!arguments.output.empty()) summary["file"] = arguments.output.string();
@@ -67,7 +70,8 @@ Result<void> Write(const ResponseArguments& arguments, const session::SceneRende
         "gives the light within {:.0f} %.\n",
         likelier, 100 * found.log_error);
   } else {
-    std::cout << fmt::format("sRGB holds. Another curve is {:.2g} times as likely.\n", likelier);
+    std::cout << fmt::format("{} holds. Another curve is {:.2g} times as likely.\n",
+                             by_film ? "The curve of the film's tags" : "sRGB", likelier);
   }
   return {};
 }
@@ -89,8 +93,10 @@ Result<void> RunResponse(const ResponseArguments& arguments) {
                       "add it to the scene: the curve is seen on phantoms, and lighting needs an "
                       "object to light");
   }
+  session::PipelineOptions options;
+  options.light.film_response = devices::ResponseOf(recording.curve);
   PLEINAIR_ASSIGN_OR_RETURN(const auto pipeline,
-                            session::Pipeline::Create(recording.camera, scene, {}));
+                            session::Pipeline::Create(recording.camera, scene, options));
   {
     PassBar bar("Finding markers", name);
     PLEINAIR_RETURN_IF_ERROR(

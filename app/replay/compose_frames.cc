@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <set>
 #include <utility>
 #include <vector>
@@ -26,13 +27,16 @@ constexpr int kReportPictureWidth_px = 800;
 constexpr int kReportJpegQuality = 85;
 
 /// Opens the requested video; null: none.
-Result<std::unique_ptr<exports::VideoWriter>> OpenVideo(ReplayState& state) {
+Result<std::unique_ptr<exports::VideoWriter>> OpenVideo(
+    const std::optional<devices::RecordedSound>& sound, ReplayState& state) {
   if (!state.options.write_video) return nullptr;
   ReplayReport& report = state.report;
+  exports::VideoWriter::Options options{
+      report.film.width, report.film.height, report.film.frame_rate_hz, report.film.curve, {}};
+  if (sound) options.sound = exports::CopiedSound{sound->film, sound->start_s};
   PLEINAIR_ASSIGN_OR_RETURN(
-      auto video, exports::VideoWriter::Create(
-                      state.folder.staging() / "composite.mp4",
-                      {report.film.width, report.film.height, report.film.frame_rate_hz}));
+      auto video, exports::VideoWriter::Create(state.folder.staging() / "composite.mp4", options));
+  if (!video->why_silent().empty()) report.warnings.push_back(video->why_silent());
   report.files.video_encoder = video->encoder_name();
   report.files.outputs.emplace_back("composite.mp4");
   if (report.film.width % 2 != 0 || report.film.height % 2 != 0) {
@@ -74,7 +78,7 @@ Result<void> WriteLight(ReplayState& state) {
 
 Result<void> ComposeFrames(ReplayState& state) {
   PLEINAIR_ASSIGN_OR_RETURN(devices::Recording recording, state.OpenRecording());
-  PLEINAIR_ASSIGN_OR_RETURN(auto video, OpenVideo(state));
+  PLEINAIR_ASSIGN_OR_RETURN(auto video, OpenVideo(recording.sound, state));
   PLEINAIR_ASSIGN_OR_RETURN(fs::path frames, MakeFrameFolder(state));
   CompositeWriter writer(std::move(frames), std::move(video));
   std::vector<std::pair<std::int64_t, std::int64_t>> frames_seen;

@@ -36,6 +36,7 @@ void Describe(const devices::Recording& recording, const ReplayState& state, Rep
   report->scene.virtual_objects = scene.objects.size();
   report->scene.phantoms = scene.phantoms.size();
   report->film.frame_rate_hz = recording.frame_rate_hz;
+  report->film.curve = recording.curve;
   report->film.width = state.pipeline->output_camera().width;
   report->film.height = state.pipeline->output_camera().height;
 }
@@ -59,11 +60,13 @@ Result<devices::Recording> Prepare(ReplayState& state) {
       options.exports,
       ScaleCamera(camera, options.size.value_or(ImageSize{camera.width, camera.height}))));
   PLEINAIR_RETURN_IF_ERROR(CheckInterrupt(options.recording.string()));
+  session::LightOptions light = options.light;
+  light.film_response = devices::ResponseOf(recording.curve);
   PLEINAIR_ASSIGN_OR_RETURN(
       state.pipeline,
       session::Pipeline::Create(
           camera, *recording.scene,
-          {.composer = options.composer, .light = options.light, .image_size = options.size}));
+          {.composer = options.composer, .light = std::move(light), .image_size = options.size}));
   Describe(recording, state, &state.report);
   return recording;
 }

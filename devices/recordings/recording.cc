@@ -163,6 +163,8 @@ Result<Recording> OpenOwnFolder(const fs::path& folder, const RecordingOptions& 
                               OpenVideo(frames, {size, manifest.frame_count, manifest.frame_rate_hz,
                                                  manifest.timestamps_s}));
     recording.frame_rate_hz = video.frame_rate_hz;
+    recording.curve = video.curve;
+    if (video.start_s) recording.sound = RecordedSound{frames, *video.start_s};
     recording.frames = std::move(video.frames);
     return recording;
   }
@@ -256,6 +258,8 @@ Result<Recording> OpenPlainVideo(const fs::path& file, const RecordingOptions& o
   facts.size = {recording.camera.width, recording.camera.height};
   PLEINAIR_ASSIGN_OR_RETURN(OpenedVideo video, OpenVideo(file, facts));
   recording.frame_rate_hz = video.frame_rate_hz;
+  recording.curve = video.curve;
+  if (video.start_s) recording.sound = RecordedSound{file, *video.start_s};
   recording.frames = std::move(video.frames);
   return recording;
 }

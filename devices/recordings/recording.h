@@ -7,6 +7,7 @@
 
 #include "base/camera_model.h"
 #include "base/error.h"
+#include "devices/films/film_curve.h"
 #include "devices/frame_source.h"
 #include "scene/scene_description.h"
 
@@ -20,12 +21,20 @@ struct RecordingOptions {
   std::optional<std::filesystem::path> scene;
 };
 
+/// The file whose sound belongs to a recording.
+struct RecordedSound {
+  std::filesystem::path film;
+  double start_s = 0.0;  ///< The container's time of the recording's stamp zero.
+};
+
 /// An open recording: calibration, scene (if it has one), and frames in order.
 struct Recording {
   std::filesystem::path path;
   CameraModel camera;
   std::optional<scene::SceneDescription> scene;
   double frame_rate_hz = 0.0;
+  FilmCurve curve = FilmCurve::kSrgb;  ///< Of the frames, by a film's tags.
+  std::optional<RecordedSound> sound;  ///< Of films that keep their own time stamps.
   /// Bytes after the last complete frame of a live recording: it was truncated there, for example
   /// by a power cut.
   std::int64_t dropped_bytes = 0;

@@ -1,139 +1,248 @@
 #include "devices/recordings/video_file.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstdlib>
-#include <exception>
-#include <mutex>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <string>
 #include <system_error>
 #include <utility>
 
-#include <opencv2/videoio.hpp>
+extern "C" {
+#include <libavutil/display.h>
+}
 
-#include "devices/images/cv_image.h"
-#include "devices/recordings/video_container.h"
+#include <opencv2/imgproc.hpp>
+
+#include "devices/films/display_turn.h"
+#include "devices/films/film_colors.h"
+#include "devices/films/film_decoder.h"
+#include "devices/films/film_demuxer.h"
+#include "devices/films/film_picture.h"
+#include "devices/films/film_stamps.h"
+#include "devices/films/video_container.h"
 
 namespace pleinair::devices {
 namespace {
 
 constexpr const char* kWholeCopy = "get a whole copy of it";
 
+GreyImage GreyOf(const RgbImage& rgb) {
+  GreyImage grey(rgb.width(), rgb.height(), 1);
+  // OpenCV does not write through the const matrix.
+  const cv::Mat source(rgb.height(), rgb.width(), CV_8UC3, const_cast<std::uint8_t*>(rgb.data()));
+  cv::Mat target(rgb.height(), rgb.width(), CV_8UC1, grey.data());
+  cv::cvtColor(source, target, cv::COLOR_RGB2GRAY);
+  return grey;
+}
+
+/// When each frame of a video is shown.
+struct FrameTimes {
+  FilmStamps stored;
+  std::optional<double> rate_hz;     ///< Replaces the stored stamps.
+  std::vector<double> timestamps_s;  ///< Replace both; empty: none.
+  std::size_t frames = 0;
+
+  bool HasStored() const { return timestamps_s.empty() && !rate_hz; }
+
+  std::int64_t Nanoseconds(std::size_t frame) const {
+    if (!timestamps_s.empty()) return std::llround(timestamps_s.at(frame) * 1e9);
+    if (rate_hz) return std::llround(static_cast<double>(frame) / *rate_hz * 1e9);
+    return stored.Nanoseconds(frame);
+  }
+};
+
 class VideoFile : public FrameSource {
  public:
-  VideoFile(std::string name, cv::VideoCapture capture, VideoMetadata facts, bool promised_exactly)
-      : name_(std::move(name)),
-        capture_(std::move(capture)),
-        facts_(std::move(facts)),
-        promised_exactly_(promised_exactly) {}
+  VideoFile(FilmDecoder decoder, FilmPictures pictures, FrameTimes times, ImageSize stored_size)
+      : decoder_(std::move(decoder)),
+        pictures_(std::move(pictures)),
+        times_(std::move(times)),
+        stored_size_(stored_size) {}
 
   Result<std::optional<Frame>> Next() override {
     if (at_end_) return std::nullopt;
     // Until this frame is delivered: an error ends the stream.
     at_end_ = true;
-    // Frames in the file beyond the specified number are not part of the recording.
-    if (promised_exactly_ && next_ == facts_.frame_count) return std::nullopt;
-    cv::Mat bgr;
-    try {
-      if (!capture_.read(bgr) || bgr.empty()) return End();
-    } catch (const std::exception& error) {
-      return InputError(name_, "cannot be decoded: " + std::string(error.what()), kWholeCopy);
+    if (next_ >= times_.frames) return std::nullopt;
+    SeekTowards(wanted_);
+    for (;;) {
+      PLEINAIR_ASSIGN_OR_RETURN(const AVFrame* const decoded, decoder_.Next());
+      if (decoded == nullptr) return End();
+      PLEINAIR_ASSIGN_OR_RETURN(const std::size_t index, IndexOf(*decoded));
+      next_ = index + 1;
+      if (index < wanted_) continue;
+      if (index > wanted_ && sought_) {
+        // The container led behind the wanted frame: decode from the start instead.
+        if (!decoder_.SeekToStart()) return Damaged(wanted_, "cannot be reached");
+        sought_ = false;
+        next_ = 0;
+        continue;
+      }
+      PLEINAIR_ASSIGN_OR_RETURN(Frame frame, Deliver(*decoded, index));
+      wanted_ = next_;
+      sought_ = false;
+      at_end_ = false;
+      return frame;
     }
-    if (bgr.type() != CV_8UC3 || ImageSize{bgr.cols, bgr.rows} != facts_.size) {
-      return InputError(name_, "changes its image size at frame " + std::to_string(next_),
-                        "convert it to one size");
-    }
-    Frame frame;
-    frame.index = next_;
-    const double stamp_s = facts_.timestamps_s.empty()
-                               ? next_ / *facts_.frame_rate_hz
-                               : facts_.timestamps_s[static_cast<std::size_t>(next_)];
-    frame.timestamp_ns = std::llround(stamp_s * 1e9);
-    DecodedImage image = ImageFromBgr(bgr);
-    frame.rgb = std::move(image.rgb);
-    frame.grey = std::move(image.grey);
-    ++next_;
-    at_end_ = false;
-    return frame;
+  }
+
+  void SkipTo(std::int64_t index) override {
+    if (index > 0) wanted_ = std::max(wanted_, static_cast<std::size_t>(index));
   }
 
   std::optional<std::int64_t> FrameCount() const override {
-    return facts_.frame_count ? std::optional<std::int64_t>(*facts_.frame_count) : std::nullopt;
+    return static_cast<std::int64_t>(times_.frames);
   }
-
-  bool CountsExactly() const override { return promised_exactly_; }
 
  private:
-  // Checks that the end came at the expected frame.
-  Result<std::optional<Frame>> End() const {
-    // A container's own count is an estimate if it has no index, and edit lists hide frames of some
-    // that have one. Up to two frames or 2 % may be missing before the file counts as truncated.
-    const double tolerated =
-        promised_exactly_ ? 0.0 : std::max(2.0, 0.02 * facts_.frame_count.value_or(0));
-    if (next_ == 0 || next_ + tolerated < facts_.frame_count.value_or(0)) {
-      const std::string promised =
-          facts_.frame_count ? " of " + std::to_string(*facts_.frame_count) : std::string();
-      return InputError(name_,
-                        "is cut short or damaged: only " + std::to_string(next_) + promised +
-                            " frames can be decoded",
-                        kWholeCopy);
-    }
-    return std::nullopt;
+  // Goes to the key frame before a frame, if it lies ahead.
+  void SeekTowards(std::size_t frame) {
+    if (frame <= next_ || !times_.stored.are_stored()) return;
+    const auto entry = times_.stored.EntryFor(std::min(frame, times_.frames - 1));
+    if (!entry || entry->frame <= next_) return;
+    sought_ = decoder_.Seek(entry->ticks);
+    if (!sought_ && decoder_.SeekToStart()) next_ = 0;
   }
 
-  std::string name_;
-  cv::VideoCapture capture_;
-  VideoMetadata facts_;
-  bool promised_exactly_ = false;
-  int next_ = 0;
+  Result<std::size_t> IndexOf(const AVFrame& decoded) const {
+    if (!times_.stored.are_stored()) return next_;
+    const std::optional<std::size_t> index = times_.stored.FrameAt(decoded.best_effort_timestamp);
+    if (!index) return Damaged(next_, "has a time that no packet gave it");
+    if (sought_) return *index;
+    // Frames before the first that can be decoded: a film that was cut between key frames.
+    const bool starts_late = next_ == 0;
+    if (*index == next_ || starts_late) return *index;
+    return Damaged(next_, "cannot be decoded");
+  }
+
+  Result<Frame> Deliver(const AVFrame& decoded, std::size_t index) {
+    if (ImageSize{decoded.width, decoded.height} != stored_size_) {
+      return InputError(decoder_.demuxer().name(),
+                        "changes its image size at frame " + std::to_string(index),
+                        "convert it to one size");
+    }
+    if (decoded.decode_error_flags != 0 || (decoded.flags & AV_FRAME_FLAG_CORRUPT) != 0) {
+      return Damaged(index, "cannot be decoded without errors");
+    }
+    Frame frame;
+    frame.index = static_cast<std::int64_t>(index);
+    frame.timestamp_ns = times_.Nanoseconds(index);
+    PLEINAIR_ASSIGN_OR_RETURN(frame.rgb, pictures_.Convert(decoded));
+    frame.grey = GreyOf(frame.rgb);
+    return frame;
+  }
+
+  tl::unexpected<Error> Damaged(std::size_t frame, const std::string& what) const {
+    return InputError(decoder_.demuxer().name(),
+                      "is damaged: frame " + std::to_string(frame) + " " + what, kWholeCopy);
+  }
+
+  // Checks that the end came at the expected frame.
+  Result<std::optional<Frame>> End() const {
+    if (next_ >= times_.frames) return std::nullopt;
+    return InputError(decoder_.demuxer().name(),
+                      "is cut short or damaged: only " + std::to_string(next_) + " of " +
+                          std::to_string(times_.frames) + " frames can be decoded",
+                      kWholeCopy);
+  }
+
+  FilmDecoder decoder_;
+  FilmPictures pictures_;
+  FrameTimes times_;
+  ImageSize stored_size_;
+  std::size_t next_ = 0;    // Next frame of the decoder.
+  std::size_t wanted_ = 0;  // Earlier frames are not delivered.
+  bool sought_ = false;     // Since the last delivered frame.
   bool at_end_ = false;
 };
 
-// FFmpeg writes its own messages to stderr; our errors contain what the user needs.
-void QuietFfmpeg() {
-  static std::once_flag once;
-  std::call_once(once, [] { setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", /*overwrite=*/0); });
+Result<DisplayTurn> TurnOf(const FilmDemuxer& film) {
+  std::size_t bytes = 0;
+  const std::uint8_t* data =
+      av_stream_get_side_data(&film.track(), AV_PKT_DATA_DISPLAYMATRIX, &bytes);
+  std::array<std::int32_t, 9> matrix{};
+  if (data == nullptr || bytes < sizeof matrix) return DisplayTurn();
+  std::memcpy(matrix.data(), data, sizeof matrix);
+  return DisplayTurn::FromMatrix(matrix, film.name());
 }
 
-Result<OpenedVideo> Open(const std::filesystem::path& file, VideoMetadata facts) {
-  const std::string name = file.string();
-  QuietFfmpeg();
-  // An absolute path cannot be mistaken for a protocol such as "concat:".
-  cv::VideoCapture capture(std::filesystem::absolute(file).string(), cv::CAP_FFMPEG);
-  if (!capture.isOpened()) {
-    return InputError(name, "cannot be opened as a video: no known format, or cut short",
-                      "get a whole copy of it, or convert it to MP4 with H.264");
+/// The container's rate where it agrees with the intervals of the frames, else theirs.
+std::optional<double> RateOf(const FilmDemuxer& film, const FilmStamps& stamps) {
+  constexpr double kAgreement = 0.05;
+  constexpr double kMaxRate_hz = 1e5;
+  const std::optional<double> typical_hz = stamps.TypicalRate_hz();
+  for (const AVRational rate : {film.track().avg_frame_rate, film.track().r_frame_rate}) {
+    if (rate.num <= 0 || rate.den <= 0) continue;
+    const double rate_hz = av_q2d(rate);
+    if (rate_hz > kMaxRate_hz) continue;
+    if (!typical_hz || std::abs(rate_hz / *typical_hz - 1.0) < kAgreement) return rate_hz;
   }
-  const ImageSize is{static_cast<int>(capture.get(cv::CAP_PROP_FRAME_WIDTH)),
-                     static_cast<int>(capture.get(cv::CAP_PROP_FRAME_HEIGHT))};
-  if (facts.size == ImageSize{}) facts.size = is;
-  if (is != facts.size) {
-    return InputError(name,
-                      "has " + std::to_string(is.width) + "x" + std::to_string(is.height) +
-                          " pixels, but the calibration is for " +
-                          std::to_string(facts.size.width) + "x" +
-                          std::to_string(facts.size.height),
-                      "use the calibration of this camera at this size");
+  return typical_hz;
+}
+
+Result<FrameTimes> TimesOf(const FilmDemuxer& film, FilmStamps stamps, const VideoMetadata& facts,
+                           double* rate_hz) {
+  constexpr double kSameRate = 0.01;
+  FrameTimes times;
+  const std::optional<double> own_hz = RateOf(film, stamps);
+  if (!own_hz && !facts.frame_rate_hz) {
+    return InputError(film.name(), "does not say its frame rate",
+                      "put it into a folder with a recording.json that has frame_rate_hz");
   }
-  if (!facts.frame_rate_hz) {
-    const double rate_hz = capture.get(cv::CAP_PROP_FPS);
-    if (!std::isfinite(rate_hz) || rate_hz <= 0.0 || rate_hz > 1e5) {
-      return InputError(name, "does not say its frame rate",
-                        "put it into a folder with a recording.json that has frame_rate_hz");
+  *rate_hz = facts.frame_rate_hz.value_or(own_hz.value_or(0.0));
+  const bool is_overridden =
+      facts.frame_rate_hz && own_hz && std::abs(*facts.frame_rate_hz / *own_hz - 1.0) > kSameRate;
+  if (is_overridden || !stamps.are_stored()) times.rate_hz = *rate_hz;
+  times.timestamps_s = facts.timestamps_s;
+  times.frames = stamps.frames();
+  if (facts.frame_count) {
+    const auto promised = static_cast<std::size_t>(*facts.frame_count);
+    if (promised > times.frames) {
+      return InputError(film.name(),
+                        "is cut short or damaged: only " + std::to_string(times.frames) + " of " +
+                            std::to_string(promised) + " frames are there",
+                        kWholeCopy);
     }
-    facts.frame_rate_hz = rate_hz;
+    times.frames = promised;
   }
-  const bool promised_exactly = facts.frame_count.has_value();
-  if (!promised_exactly) {
-    const double count = capture.get(cv::CAP_PROP_FRAME_COUNT);
-    if (std::isfinite(count) && count >= 1.0 && count < 1e8) {
-      facts.frame_count = static_cast<int>(count);
-    }
+  if (!times.timestamps_s.empty()) {
+    times.frames = std::min(times.frames, times.timestamps_s.size());
   }
+  times.stored = std::move(stamps);
+  return times;
+}
+
+Result<OpenedVideo> Open(const std::filesystem::path& file, const VideoMetadata& facts) {
+  PLEINAIR_ASSIGN_OR_RETURN(FilmDemuxer film, FilmDemuxer::Open(file));
+  PLEINAIR_ASSIGN_OR_RETURN(const DisplayTurn turn, TurnOf(film));
+  const ImageSize stored{film.track().codecpar->width, film.track().codecpar->height};
   OpenedVideo opened;
-  opened.size = facts.size;
-  opened.frame_rate_hz = *facts.frame_rate_hz;
-  opened.frames =
-      std::make_unique<VideoFile>(name, std::move(capture), std::move(facts), promised_exactly);
+  opened.size = turn.Turned(stored);
+  if (facts.size != ImageSize{} && opened.size != facts.size) {
+    return InputError(
+        film.name(),
+        "has " + std::to_string(opened.size.width) + "x" + std::to_string(opened.size.height) +
+            " pixels, but the calibration is for " + std::to_string(facts.size.width) + "x" +
+            std::to_string(facts.size.height),
+        "use the calibration of this camera at this size");
+  }
+  PLEINAIR_ASSIGN_OR_RETURN(const std::vector<FilmPacket> packets, film.Scan());
+  const AVRational unit = film.track().time_base;
+  PLEINAIR_ASSIGN_OR_RETURN(FilmStamps stamps,
+                            FilmStamps::Create(packets, {unit.num, unit.den}, film.name()));
+  PLEINAIR_ASSIGN_OR_RETURN(FrameTimes times,
+                            TimesOf(film, std::move(stamps), facts, &opened.frame_rate_hz));
+  PLEINAIR_ASSIGN_OR_RETURN(const FilmColors colors,
+                            FilmColors::Create(film.color_tags(), stored.height, film.name()));
+  opened.curve = colors.curve();
+  if (times.HasStored()) opened.start_s = times.stored.start_s();
+  FilmPictures pictures(film.name(), colors, turn);
+  PLEINAIR_ASSIGN_OR_RETURN(FilmDecoder decoder, FilmDecoder::Create(std::move(film)));
+  opened.frames = std::make_unique<VideoFile>(std::move(decoder), std::move(pictures),
+                                              std::move(times), stored);
   return opened;
 }
 
@@ -147,12 +256,7 @@ Result<OpenedVideo> OpenVideo(const std::filesystem::path& file, const VideoMeta
   }
   if (bytes == 0) return InputError(file.string(), "is empty", kWholeCopy);
   PLEINAIR_RETURN_IF_ERROR(CheckContainerIsWhole(file));
-  try {
-    return Open(file, facts);
-  } catch (const std::exception& failure) {
-    return InputError(file.string(), "cannot be opened: " + std::string(failure.what()),
-                      kWholeCopy);
-  }
+  return Open(file, facts);
 }
 
 }  // namespace pleinair::devices

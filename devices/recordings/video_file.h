@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "devices/films/film_curve.h"
 #include "devices/frame_source.h"
 #include "devices/images/image_file.h"
 
@@ -15,20 +16,33 @@ namespace pleinair::devices {
 struct VideoMetadata {
   /// Required frame size: the calibration's. 0x0: any size.
   ImageSize size;
-  std::optional<int> frame_count;       ///< Overrides the file's own count.
-  std::optional<double> frame_rate_hz;  ///< Overrides the file's own rate.
-  std::vector<double> timestamps_s;     ///< One per frame; empty: index / rate.
+  /// Number of frames; fewer in the file are an error, further ones are left out.
+  std::optional<int> frame_count;
+  /// Replaces the file's own time stamps by index / rate where it differs from the file's rate by
+  /// more than 1 % (slow motion). Also the rate of files without time stamps.
+  std::optional<double> frame_rate_hz;
+  std::vector<double> timestamps_s;  ///< One per frame; replaces the file's time stamps.
 };
 
 struct OpenedVideo {
   std::unique_ptr<FrameSource> frames;
-  double frame_rate_hz = 0.0;
-  ImageSize size;
+  double frame_rate_hz = 0.0;  ///< Typical; single intervals may differ.
+  ImageSize size;              ///< As shown: turned.
+  /// The container's time of the first frame, for its sound; nothing: the stamps are not the
+  /// film's.
+  std::optional<double> start_s;
+  FilmCurve curve = FilmCurve::kSrgb;  ///< Of the frames' pixel values.
 };
 
-/// Opens a video file, decoded by FFmpeg through OpenCV. A rotation in the metadata (phones) is
-/// applied. Errors: no file, empty, format unknown to FFmpeg, truncated (MP4, MOV, AVI), another
-/// size, no frame rate; from Next(): fewer frames than the file or `frame_count` specifies.
+/// Opens a video file, decoded by libavcodec. Frames have the time stamps of the file, counted from
+/// the first frame that its edit list shows. Rotation and mirroring of the metadata (phones) are
+/// applied, and its colors become Rec.709 primaries (FilmPictures).
+///
+/// All packets are read once, without decoding, so that the number of frames is exact and a
+/// truncated or incomplete file is found here. Errors: no file, empty, format unknown to
+/// libavformat, truncated, another size, a rotation by other than multiples of 90°, colors that are
+/// not supported, two frames at one time, no frame rate; from Next(): damage inside the video, or
+/// fewer frames than `frame_count`.
 Result<OpenedVideo> OpenVideo(const std::filesystem::path& file, const VideoMetadata& facts);
 
 }  // namespace pleinair::devices

@@ -1,14 +1,6 @@
 #include "export/images/video_writer.h"
 
-extern "C" {
-#include <libavcodec/avcodec.h>
-#include <libavformat/avformat.h>
-#include <libavutil/opt.h>
-#include <libswscale/swscale.h>
-}
-
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
@@ -19,22 +11,13 @@ extern "C" {
 #include <vector>
 
 #include "base/atomic_file.h"
+#include "devices/films/libav_pointer.h"
+#include "export/images/sound_copy.h"
 
 namespace pleinair::exports {
 namespace {
 
-struct AvDeleter {
-  void operator()(AVCodecContext* context) const { avcodec_free_context(&context); }
-  void operator()(AVFrame* frame) const { av_frame_free(&frame); }
-  void operator()(AVPacket* packet) const { av_packet_free(&packet); }
-  void operator()(SwsContext* context) const { sws_freeContext(context); }
-  void operator()(AVFormatContext* context) const {
-    if (context->pb != nullptr) avio_closep(&context->pb);
-    avformat_free_context(context);
-  }
-};
-template <typename T>
-using AvPointer = std::unique_ptr<T, AvDeleter>;
+using devices::LibavPointer;
 
 constexpr int kTicksPerFrame = 100;  // Resolution of irregular time stamps.
 constexpr int kEncoderThreads = 4;   // Fixed: x264's decisions depend on it.
@@ -55,6 +38,20 @@ AVRational RateFraction(double rate_hz) {
   return {1, static_cast<int>(std::min(std::round(1.0 / rate_hz), kMaxPeriod_s))};
 }
 
+AVColorTransferCharacteristic TransferTag(devices::FilmCurve curve) {
+  switch (curve) {
+    case devices::FilmCurve::kBt709:
+      return AVCOL_TRC_BT709;
+    case devices::FilmCurve::kGamma22:
+      return AVCOL_TRC_GAMMA22;
+    case devices::FilmCurve::kGamma28:
+      return AVCOL_TRC_GAMMA28;
+    case devices::FilmCurve::kSrgb:
+      break;
+  }
+  return AVCOL_TRC_IEC61966_2_1;
+}
+
 /// Converts libav's error number to an Error about `file`. System errors about files keep their
 /// text. EINVAL is libav's own code for an unsupported setting.
 Error LibavError(const std::filesystem::path& file, int code) {
@@ -62,9 +59,7 @@ Error LibavError(const std::filesystem::path& file, int code) {
   if (error_number > 0 && error_number < 4096 && error_number != EINVAL) {
     return WriteError(file, error_number);
   }
-  std::array<char, AV_ERROR_MAX_STRING_SIZE> text{};
-  av_strerror(code, text.data(), text.size());
-  return {ErrorKind::kSystem, file.string(), std::string("cannot encode video: ") + text.data(),
+  return {ErrorKind::kSystem, file.string(), "cannot encode video: " + devices::LibavText(code),
           "try --no-video"};
 }
 
@@ -125,6 +120,7 @@ class LibavVideoWriter final : public VideoWriter {
 
   Result<void> Finish() override {
     PLEINAIR_RETURN_IF_ERROR(Encode(nullptr));
+    PLEINAIR_RETURN_IF_ERROR(WriteSoundUntil(stamps_.last_tick + kTicksPerFrame));
     if (const int code = av_write_trailer(format_.get()); code < 0) {
       return tl::make_unexpected(LibavError(file_, code));
     }
@@ -140,6 +136,8 @@ class LibavVideoWriter final : public VideoWriter {
 
   std::string encoder_name() const override { return codec_->codec->name; }
 
+  std::string why_silent() const override { return why_silent_; }
+
  private:
   void ConfigureCodec(const AVCodec& codec) {
     const AVRational rate = RateFraction(options_.frame_rate_hz);
@@ -150,7 +148,7 @@ class LibavVideoWriter final : public VideoWriter {
     codec_->time_base = {rate.den, rate.num * kTicksPerFrame};
     codec_->colorspace = AVCOL_SPC_BT709;
     codec_->color_primaries = AVCOL_PRI_BT709;
-    codec_->color_trc = AVCOL_TRC_BT709;
+    codec_->color_trc = TransferTag(options_.curve);
     codec_->color_range = AVCOL_RANGE_MPEG;
     codec_->thread_count = kEncoderThreads;
     codec_->flags |= AV_CODEC_FLAG_BITEXACT;
@@ -183,6 +181,10 @@ class LibavVideoWriter final : public VideoWriter {
     const int* bt709 = sws_getCoefficients(SWS_CS_ITU709);
     sws_setColorspaceDetails(scaler_.get(), bt709, 1, bt709, 0, 0, 1 << 16, 1 << 16);
     padded_.resize(static_cast<std::size_t>(codec_->width) * codec_->height * 3);
+    if (options_.sound) {
+      PLEINAIR_ASSIGN_OR_RETURN(sound_,
+                                SoundCopy::Add(*options_.sound, format_.get(), &why_silent_));
+    }
     code = avio_open(&format_->pb, file_.c_str(), AVIO_FLAG_WRITE);
     if (code < 0) return tl::make_unexpected(LibavError(file_, code));
     AVDictionary* settings = nullptr;
@@ -205,13 +207,21 @@ class LibavVideoWriter final : public VideoWriter {
   }
 
   std::int64_t NextStamp(std::int64_t timestamp_ns) {
-    if (!first_stamp_ns_) first_stamp_ns_ = timestamp_ns;
-    const double seconds = static_cast<double>(timestamp_ns - *first_stamp_ns_) * 1e-9;
+    if (!stamps_.first_ns) stamps_.first_ns = timestamp_ns;
+    const double seconds = static_cast<double>(timestamp_ns - *stamps_.first_ns) * 1e-9;
     std::int64_t tick = std::llround(seconds / av_q2d(codec_->time_base));
     const std::int64_t raster = (tick + kTicksPerFrame / 2) / kTicksPerFrame * kTicksPerFrame;
     if (std::abs(tick - raster) <= kTicksPerFrame / 50) tick = raster;
-    last_tick_ = std::max(tick, last_tick_ + 1);
-    return last_tick_;
+    stamps_.last_tick = std::max(tick, stamps_.last_tick + 1);
+    return stamps_.last_tick;
+  }
+
+  /// Writes the sound before a time in the encoder's ticks.
+  Result<void> WriteSoundUntil(std::int64_t tick) {
+    if (!sound_) return {};
+    const int code = sound_->WriteUntil(static_cast<double>(tick) * av_q2d(codec_->time_base));
+    if (code < 0) return tl::make_unexpected(LibavError(file_, code));
+    return {};
   }
 
   Result<void> Encode(const AVFrame* frame) {
@@ -221,6 +231,7 @@ class LibavVideoWriter final : public VideoWriter {
       if (code == AVERROR(EAGAIN) || code == AVERROR_EOF) return {};
       if (code < 0) break;
       packet_->duration = kTicksPerFrame;
+      PLEINAIR_RETURN_IF_ERROR(WriteSoundUntil(packet_->dts));
       av_packet_rescale_ts(packet_.get(), codec_->time_base, stream_->time_base);
       packet_->stream_index = stream_->index;
       code = av_interleaved_write_frame(format_.get(), packet_.get());
@@ -231,15 +242,20 @@ class LibavVideoWriter final : public VideoWriter {
 
   std::filesystem::path file_;
   Options options_;
-  AvPointer<AVFormatContext> format_;
-  AvPointer<AVCodecContext> codec_;
-  AvPointer<SwsContext> scaler_;
-  AvPointer<AVFrame> frame_;
-  AvPointer<AVPacket> packet_;
+  LibavPointer<AVFormatContext> format_;
+  LibavPointer<AVCodecContext> codec_;
+  LibavPointer<SwsContext> scaler_;
+  LibavPointer<AVFrame> frame_;
+  LibavPointer<AVPacket> packet_;
   AVStream* stream_ = nullptr;  // Owned by the format.
   std::vector<std::uint8_t> padded_;
-  std::optional<std::int64_t> first_stamp_ns_;
-  std::int64_t last_tick_ = -1;  // One before the first.
+  struct Stamps {
+    std::optional<std::int64_t> first_ns;
+    std::int64_t last_tick = -1;  // One before the first.
+  };
+  Stamps stamps_;
+  std::unique_ptr<SoundCopy> sound_;  // Null: none. Refers to the format.
+  std::string why_silent_;
 };
 
 }  // namespace

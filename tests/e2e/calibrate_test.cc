@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <opencv2/videoio.hpp>
 
 #include "base/srgb.h"
 #include "devices/calibration/calibration.h"
+#include "tests/devices/films/made_film.h"
 #include "tests/e2e/run_program.h"
 #include "tests/tracker/calibration/board_rendering.h"
 
@@ -104,16 +104,19 @@ TEST(Calibrate, WritesEveryFormAndAPageFromPicturesAndFromAFilm) {
   EXPECT_EQ(coverage.size(), cv::Size(1200, 900));
 
   // A video that shows each view for three frames: each view is used once.
-  cv::VideoWriter film((folder / "film.avi").string(), cv::VideoWriter::fourcc('M', 'J', 'P', 'G'),
-                       10.0, pictures[0].size(), false);
-  ASSERT_TRUE(film.isOpened());
-  film.set(cv::VIDEOWRITER_PROP_QUALITY, 98);
-  for (const cv::Mat& picture : pictures) {
-    for (int i = 0; i < 3; ++i) film << picture;
-  }
-  film.release();
+  tests::MadeFilm film;
+  film.width = pictures[0].cols;
+  film.height = pictures[0].rows;
+  film.ticks_per_s = 10;
+  for (int i = 0; i < 3 * static_cast<int>(pictures.size()); ++i) film.ticks.push_back(i);
+  tests::WriteFilm(folder / "film.mp4", film, [&](AVFrame* frame, int i) {
+    tests::FillPlanes(frame, 0, 128, 128);
+    const cv::Mat& picture = pictures[static_cast<std::size_t>(i) / 3];
+    cv::Mat luma(frame->height, frame->width, CV_8UC1, frame->data[0], frame->linesize[0]);
+    picture.convertTo(luma, CV_8U, 219.0 / 255.0, 16.0);
+  });
   const RunResult from_film =
-      RunPleinair({"calibrate", "--charuco", "8x6", folder / "film.avi", "--json"});
+      RunPleinair({"calibrate", "--charuco", "8x6", folder / "film.mp4", "--json"});
   ASSERT_EQ(from_film.exit_code, 0) << from_film.err;
   const auto of_film = nlohmann::json::parse(from_film.out);
   EXPECT_EQ(of_film["views"].size(), 12U);

@@ -8,6 +8,7 @@
 
 #include "app/output/light_csv.h"
 #include "base/stage_times.h"
+#include "devices/films/film_curve.h"
 #include "scene/scene_description.h"
 #include "session/light_options.h"
 #include "session/light_summary.h"
@@ -34,6 +35,7 @@ struct ReplayCall {
 struct ReplayedFilm {
   int width = 0, height = 0;  ///< Pixels.
   double frame_rate_hz = 0.0;
+  devices::FilmCurve curve = devices::FilmCurve::kSrgb;  ///< Of the frames' pixel values.
   std::int64_t frames = 0;
 };
 

@@ -170,8 +170,9 @@ std::string ExposureScaleCard(const session::LightSummary& light) {
 std::string ResponseCard(const session::ResponseSummary& response) {
   using Source = session::ResponseSummary::Source;
   if (response.source == Source::kStated) return Card("given", "camera response, by the user");
-  if (response.source == Source::kSrgb) {
-    return Card("sRGB", response.IsShown() ? "camera response: the frames do not contradict it"
+  if (response.source == Source::kSrgb || response.source == Source::kFilm) {
+    const char* curve = response.source == Source::kSrgb ? "sRGB" : "by the film's tags";
+    return Card(curve, response.IsShown() ? "camera response: the frames do not contradict it"
                                            : "camera response: the frames do not show it");
   }
   return Card(fmt::format("± {:.0f} %", 100 * response.log_error),

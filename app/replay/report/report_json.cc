@@ -86,6 +86,7 @@ Json ResponseJson(const session::ResponseSummary& response) {
   using Source = session::ResponseSummary::Source;
   const char* from = response.source == Source::kMeasured ? "measured" : "srgb";
   if (response.source == Source::kStated) from = "stated";
+  if (response.source == Source::kFilm) from = "film";
   return {{"from", from},
           {"evidence_log", Rounded(response.log_evidence)},
           {"light_relative_error", IfKnown(response.IsShown(), response.log_error)}};

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "base/image.h"
+#include "devices/films/display_turn.h"
+#include "devices/films/film_colors.h"
+#include "devices/films/libav_pointer.h"
+
+namespace pleinair::devices {
+
+/// Converts decoded frames to RGB images in Rec.709 primaries, turned as the film wants to be
+/// shown.
+///
+/// Standard dynamic range in Rec.709 primaries keeps its signal: R'G'B' by the film's matrix and
+/// range (ITU-T H.273, 8.3), rounded to 8 bits. Everything else goes through linear light at the
+/// film's full depth: E = transfer(R'G'B'), the matrix of primaries, then the curve of
+/// FilmColors::curve(). Light above 1 and negative light, of colors that Rec.709 lacks, are
+/// clipped.
+class FilmPictures {
+ public:
+  FilmPictures(std::string name, FilmColors colors, DisplayTurn turn);
+
+  /// Errors: a pixel format that cannot be converted.
+  Result<RgbImage> Convert(const AVFrame& frame);
+
+ private:
+  RgbImage ThroughLight(const std::vector<std::uint16_t>& signal, int width, int height) const;
+
+  std::string name_;
+  FilmColors colors_;
+  DisplayTurn turn_;
+  LibavPointer<SwsContext> scaler_;
+  std::vector<float> light_;           // Of 16-bit signals; empty without a conversion.
+  std::vector<std::uint8_t> encoded_;  // Of linear light in steps of 1 / (size - 1).
+};
+
+}  // namespace pleinair::devices
