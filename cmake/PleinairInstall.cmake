@@ -61,7 +61,7 @@ set(pleinair_libs export session compositor shadows gl tracker devices calibrati
 list(TRANSFORM pleinair_libs PREPEND "-lpleinair_")
 list(JOIN pleinair_libs " " PLEINAIR_PC_LIBS)
 set(PLEINAIR_PC_REQUIRES "erfa epoxy egl yaml-cpp zlib libpng libjpeg libhwy fmt OpenEXR")
-string(APPEND PLEINAIR_PC_REQUIRES " libavformat libavcodec libavutil libswscale")
+string(APPEND PLEINAIR_PC_REQUIRES " libavformat libavcodec libavutil libswscale libexif geographiclib")
 if(ARAVIS_FOUND)
   string(APPEND PLEINAIR_PC_REQUIRES " aravis-0.8")
 endif()

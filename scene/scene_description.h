@@ -9,6 +9,7 @@
 #include "base/units.h"
 #include "base/utc_time.h"
 #include "base/vector.h"
+#include "scene/described_surface.h"
 
 namespace pleinair::scene {
 
@@ -45,9 +46,10 @@ struct MarkerDescription {
 /// Vertex normals of a model: from its file, per face, or averaged per vertex.
 enum class Shading { kFromFile, kFlat, kSmooth };
 
-/// A model file placed in marker coordinates: x_marker = R scale x_model + translation.
+/// A model placed in marker coordinates: x_marker = R scale x_model + translation.
 struct ModelReference {
   std::filesystem::path file;
+  std::optional<DescribedSurface> surface;  ///< In place of the file.
   Shading shading = Shading::kFromFile;
   Vec3 translation_m;  ///< Of the model's origin, marker coordinates.
   Vec3 rotation_deg;   ///< About the marker's x, then y, then z axis.

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <system_error>
 
+#include "scene/magnetic_declination.h"
+
 namespace pleinair::scene {
 namespace {
 
@@ -35,7 +37,34 @@ Result<void> CheckTarget(const MarkerFacts& facts, const std::string& name) {
   return {};
 }
 
-Result<MarkerDescription> CompleteMarker(const MarkerFacts& facts, const std::string& name) {
+/// From true north, clockwise.
+Result<Radians> Heading(const MarkerFacts& facts, const PlaceTime& place_time,
+                        const std::string& name) {
+  if (facts.heading_deg && facts.heading_magnetic_deg) {
+    return InputError(name, "has both heading_deg and heading_magnetic_deg", "keep one of them");
+  }
+  if (!facts.heading_deg && !facts.heading_magnetic_deg) {
+    return InputError(name, "does not say which way the marker points",
+                      "add marker.heading_deg: azimuth of its upper edge, clockwise from true "
+                      "north; or marker.heading_magnetic_deg, as a compass shows it");
+  }
+  const double heading_deg = facts.heading_deg ? *facts.heading_deg : *facts.heading_magnetic_deg;
+  if (!Within(heading_deg, -360.0, 360.0)) {
+    return InputError(name, "has a marker heading outside -360 to 360 degrees",
+                      "marker.heading_deg is clockwise from true north");
+  }
+  if (facts.heading_deg) return FromDegrees(heading_deg);
+  const Result<Radians> declination = MagneticDeclination(
+      place_time.latitude_deg, place_time.longitude_deg, place_time.height_m, place_time.start);
+  if (!declination) {
+    return InputError(name, "has a heading_magnetic_deg, but " + declination.error().what,
+                      declination.error().remedy);
+  }
+  return Radians(FromDegrees(heading_deg).value() + declination->value());
+}
+
+Result<MarkerDescription> CompleteMarker(const MarkerFacts& facts, const PlaceTime& place_time,
+                                         const std::string& name) {
   MarkerDescription marker;
   PLEINAIR_RETURN_IF_ERROR(CheckTarget(facts, name));
   if (!facts.size_m && !facts.target) {
@@ -47,15 +76,7 @@ Result<MarkerDescription> CompleteMarker(const MarkerFacts& facts, const std::st
     return InputError(name, "has a marker whose size is not greater than zero or not finite",
                       "marker.size_mm is the edge of the outer black square, 0.1 to 1000000");
   }
-  if (!facts.heading_deg) {
-    return InputError(name, "does not say which way the marker points",
-                      "add marker.heading_deg: azimuth of its upper edge, clockwise from true "
-                      "north");
-  }
-  if (!Within(*facts.heading_deg, -360.0, 360.0)) {
-    return InputError(name, "has a marker heading outside -360 to 360 degrees",
-                      "marker.heading_deg is clockwise from true north");
-  }
+  PLEINAIR_ASSIGN_OR_RETURN(marker.heading, Heading(facts, place_time, name));
   marker.family = facts.family;
   marker.id = facts.id;
   marker.version = facts.version;
@@ -64,7 +85,6 @@ Result<MarkerDescription> CompleteMarker(const MarkerFacts& facts, const std::st
   }
   marker.size_m = facts.size_m.value_or(0.0);
   if (facts.target) marker.target = *facts.target;
-  marker.heading = FromDegrees(*facts.heading_deg);
   marker.upright = facts.upright.value_or(false);
   marker.albedo_black = facts.albedo_black.value_or(marker.albedo_black);
   marker.albedo_white = facts.albedo_white.value_or(marker.albedo_white);
@@ -106,8 +126,25 @@ Result<PlaceTime> CompletePlaceTime(const PlaceTimeFacts& facts, const std::stri
   return PlaceTime{*facts.latitude_deg, *facts.longitude_deg, height_m, *facts.start};
 }
 
+bool IsReflectance(LinearRgb color) {
+  return Within(color.r, 0.0, 1.0) && Within(color.g, 0.0, 1.0) && Within(color.b, 0.0, 1.0);
+}
+
 Result<void> CheckPlacement(const ModelReference& model, const std::string& name) {
-  const std::string file = model.file.string();
+  const std::string file = model.surface ? model.surface->name : model.file.string();
+  if (model.surface && !IsReflectance(model.surface->reflectance)) {
+    return InputError(name, "gives the " + file + " a color outside 0 to 1",
+                      "color is the linear reflectance in red, green and blue");
+  }
+  if (model.surface) {
+    for (const std::vector<Vec3>& polygon : model.surface->polygons) {
+      for (const Vec3& v : polygon) {
+        if (Within(v.x, -1e6, 1e6) && Within(v.y, -1e6, 1e6) && Within(v.z, -1e6, 1e6)) continue;
+        return InputError(name, "places the " + file + " beyond a million metres",
+                          "give its corners in metres");
+      }
+    }
+  }
   if (file.empty()) return InputError(name, "has a model without a file name", "add its file");
   if (!Within(model.scale, 1e-9, 1e9)) {
     return InputError(name, "scales " + file + " by a number that is not greater than zero",
@@ -120,6 +157,34 @@ Result<void> CheckPlacement(const ModelReference& model, const std::string& name
     }
   }
   return {};
+}
+
+/// Level ground, if the scene has it or may be given it.
+Result<std::optional<ModelReference>> CompleteGround(const SceneFacts& facts, bool upright,
+                                                     const std::string& name) {
+  constexpr double kUsualSide_m = 30.0;
+  constexpr double kPrint_m = 0.001;  // The thickness of a printed sheet.
+  const GroundFacts& ground = facts.ground;
+  const bool is_assumed = !ground.is_given && ground.may_be_assumed && facts.phantoms.empty();
+  if (!ground.is_given && !is_assumed) return std::nullopt;
+  if (upright && !ground.height_m) {
+    // Nobody knows how high the marker hangs.
+    if (is_assumed) return std::nullopt;
+    return InputError(name, "has ground below an upright marker at no height",
+                      "add ground.height_m: the marker's centre above the ground, metres");
+  }
+  const double side_m = ground.size_m.value_or(kUsualSide_m);
+  const double height_m = ground.height_m.value_or(kPrint_m);
+  if (!Within(side_m, 0.1, 1e4) || !Within(height_m, 0.0, 1e3)) {
+    return InputError(name, "has ground of an impossible size or height",
+                      "ground.size_m is its side, 0.1 to 10000; ground.height_m that of the marker "
+                      "above it, 0 to 1000");
+  }
+  ModelReference model;
+  model.surface = GroundSurface(side_m, height_m, upright);
+  model.surface->is_assumed = is_assumed;
+  model.surface->reflectance = ground.color.value_or(kUsualReflectance);
+  return model;
 }
 
 Result<void> CheckLight(const SceneFacts& facts, const std::string& name) {
@@ -165,7 +230,9 @@ SceneFacts WithFallback(SceneFacts facts, const SceneFacts& fallback) {
     Fill(facts.marker.albedo_black, fallback.marker.albedo_black);
     Fill(facts.marker.albedo_white, fallback.marker.albedo_white);
   }
-  Fill(facts.marker.heading_deg, fallback.marker.heading_deg);
+  if (!facts.marker.heading_magnetic_deg) {
+    Fill(facts.marker.heading_deg, fallback.marker.heading_deg);
+  }
   Fill(facts.marker.upright, fallback.marker.upright);
   Fill(facts.cloudiness, fallback.cloudiness);
   if (facts.camera_response.empty()) facts.camera_response = fallback.camera_response;
@@ -177,16 +244,19 @@ Result<SceneDescription> CompleteScene(const SceneFacts& facts, const std::files
   SceneDescription scene;
   scene.file = file;
   PLEINAIR_ASSIGN_OR_RETURN(scene.place_time, CompletePlaceTime(facts.place_time, name));
-  PLEINAIR_ASSIGN_OR_RETURN(scene.marker, CompleteMarker(facts.marker, name));
+  PLEINAIR_ASSIGN_OR_RETURN(scene.marker, CompleteMarker(facts.marker, scene.place_time, name));
   if (scene.marker.target) {
     scene.marker.target = (file.parent_path() / *scene.marker.target).lexically_normal();
   }
   PLEINAIR_RETURN_IF_ERROR(CheckLight(facts, name));
   scene.phantoms = facts.phantoms;
+  PLEINAIR_ASSIGN_OR_RETURN(auto ground, CompleteGround(facts, scene.marker.upright, name));
+  if (ground) scene.phantoms.push_back(*std::move(ground));
   scene.objects = facts.objects;
   for (std::vector<ModelReference>* models : {&scene.phantoms, &scene.objects}) {
     for (ModelReference& model : *models) {
       PLEINAIR_RETURN_IF_ERROR(CheckPlacement(model, name));
+      if (model.surface) continue;
       model.file = (file.parent_path() / model.file).lexically_normal();
     }
   }
@@ -211,6 +281,7 @@ Result<void> CheckModelsExist(const SceneDescription& scene) {
   }
   for (const std::vector<ModelReference>* models : {&scene.phantoms, &scene.objects}) {
     for (const ModelReference& model : *models) {
+      if (model.surface) continue;
       PLEINAIR_RETURN_IF_ERROR(check("model", model.file));
     }
   }

@@ -23,8 +23,18 @@ struct MarkerFacts {
   std::optional<std::string> target;  ///< Path as in the file, relative to the scene's folder.
   std::optional<int> id, version;
   std::optional<double> size_m, heading_deg, board_size_m;
+  /// As heading_deg, but clockwise from magnetic north at the scene's place and time.
+  std::optional<double> heading_magnetic_deg;
   std::optional<double> albedo_black, albedo_white;
   std::optional<bool> upright;
+};
+
+/// Level ground in one scene file.
+struct GroundFacts {
+  bool is_given = false;        ///< [ground]
+  bool may_be_assumed = false;  ///< A scene without any phantom gets it.
+  std::optional<double> size_m, height_m;
+  std::optional<LinearRgb> color;
 };
 
 /// Content of one scene file. Absent values are unset, so that a hand-written scene.toml can leave
@@ -34,6 +44,7 @@ struct SceneFacts {
   MarkerFacts marker;
   std::vector<ModelReference> phantoms, objects;  ///< Paths as in the file, relative to the scene's
                                                   ///< folder.
+  GroundFacts ground;
   std::optional<Cloudiness> cloudiness;
   std::optional<double> turbidity;
   std::optional<LinearRgb> exposure_scale;
@@ -43,7 +54,7 @@ struct SceneFacts {
   /// True if place, time and marker, which every scene needs, are all missing.
   bool LacksPlaceTimeAndMarker() const {
     return !place_time.latitude_deg && !place_time.longitude_deg && !place_time.start &&
-           !marker.size_m && !marker.target && !marker.heading_deg;
+           !marker.size_m && !marker.target && !marker.heading_deg && !marker.heading_magnetic_deg;
   }
 };
 

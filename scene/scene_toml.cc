@@ -91,16 +91,21 @@ class Table {
   Result<std::optional<Vec3>> Triple(const char* key) const {
     const toml::node* node = Find(key);
     if (node == nullptr) return std::nullopt;
+    return Triple(*node, key);
+  }
+
+  /// A list of triples, such as the corners of a wall.
+  Result<std::vector<Vec3>> Triples(const char* key) const {
+    std::vector<Vec3> triples;
+    const toml::node* node = Find(key);
+    if (node == nullptr) return triples;
     const toml::array* list = node->as_array();
-    if (list == nullptr || list->size() != 3) {
-      return Fail(node->source(), Quoted(key) + " is not a list of three numbers");
+    if (list == nullptr) return Fail(node->source(), Quoted(key) + " is not a list");
+    for (const toml::node& item : *list) {
+      PLEINAIR_ASSIGN_OR_RETURN(const Vec3 triple, Triple(item, key));
+      triples.push_back(triple);
     }
-    double numbers[3] = {};
-    for (std::size_t i = 0; i < 3; ++i) {
-      PLEINAIR_ASSIGN_OR_RETURN(const std::optional<double> number, Number((*list)[i], key));
-      numbers[i] = number.value_or(0.0);
-    }
-    return Vec3{numbers[0], numbers[1], numbers[2]};
+    return triples;
   }
 
   /// A length in metres, given in metres or in millimetres.
@@ -146,6 +151,19 @@ class Table {
 
  private:
   static std::string Quoted(std::string_view key) { return "\"" + std::string(key) + "\""; }
+
+  Result<Vec3> Triple(const toml::node& node, const char* key) const {
+    const toml::array* list = node.as_array();
+    if (list == nullptr || list->size() != 3) {
+      return Fail(node.source(), Quoted(key) + " is not a list of three numbers");
+    }
+    double numbers[3] = {};
+    for (std::size_t i = 0; i < 3; ++i) {
+      PLEINAIR_ASSIGN_OR_RETURN(const std::optional<double> number, Number((*list)[i], key));
+      numbers[i] = number.value_or(0.0);
+    }
+    return Vec3{numbers[0], numbers[1], numbers[2]};
+  }
 
   Result<std::optional<double>> Number(const toml::node& node, const char* key) const {
     const std::optional<double> number = node.value<double>();
@@ -202,7 +220,7 @@ Result<void> ReadPlace(const Table& place, PlaceTimeFacts* facts) {
 Result<void> ReadMarker(const Table& marker, MarkerFacts* facts) {
   PLEINAIR_RETURN_IF_ERROR(marker.AllowOnly(
       {"family", "target", "id", "version", "size_m", "size_mm", "board_size_m", "board_size_mm",
-       "heading_deg", "upright", "albedo_black", "albedo_white"}));
+       "heading_deg", "heading_magnetic_deg", "upright", "albedo_black", "albedo_white"}));
   PLEINAIR_ASSIGN_OR_RETURN(facts->family, marker.Text("family"));
   PLEINAIR_ASSIGN_OR_RETURN(facts->target, marker.Text("target"));
   PLEINAIR_ASSIGN_OR_RETURN(facts->id, marker.Integer("id"));
@@ -210,9 +228,18 @@ Result<void> ReadMarker(const Table& marker, MarkerFacts* facts) {
   PLEINAIR_ASSIGN_OR_RETURN(facts->size_m, marker.Length("size_m", "size_mm"));
   PLEINAIR_ASSIGN_OR_RETURN(facts->board_size_m, marker.Length("board_size_m", "board_size_mm"));
   PLEINAIR_ASSIGN_OR_RETURN(facts->heading_deg, marker.Number("heading_deg"));
+  PLEINAIR_ASSIGN_OR_RETURN(facts->heading_magnetic_deg, marker.Number("heading_magnetic_deg"));
   PLEINAIR_ASSIGN_OR_RETURN(facts->upright, marker.Flag("upright"));
   PLEINAIR_ASSIGN_OR_RETURN(facts->albedo_black, marker.Number("albedo_black"));
   PLEINAIR_ASSIGN_OR_RETURN(facts->albedo_white, marker.Number("albedo_white"));
+  return {};
+}
+
+Result<void> ReadPlacement(const Table& table, ModelReference* model) {
+  PLEINAIR_ASSIGN_OR_RETURN(const std::optional<Vec3> translation, table.Triple("translation_m"));
+  PLEINAIR_ASSIGN_OR_RETURN(const std::optional<Vec3> rotation, table.Triple("rotation_deg"));
+  model->translation_m = translation.value_or(Vec3{});
+  model->rotation_deg = rotation.value_or(Vec3{});
   return {};
 }
 
@@ -233,11 +260,8 @@ Result<ModelReference> ReadModel(const Table& table, const Table& scene, const c
       return table.Fail("shading", "is not known", "known are file, flat and smooth");
     }
   }
-  PLEINAIR_ASSIGN_OR_RETURN(const std::optional<Vec3> translation, table.Triple("translation_m"));
-  PLEINAIR_ASSIGN_OR_RETURN(const std::optional<Vec3> rotation, table.Triple("rotation_deg"));
+  PLEINAIR_RETURN_IF_ERROR(ReadPlacement(table, &model));
   PLEINAIR_ASSIGN_OR_RETURN(const std::optional<double> scale, table.Number("scale"));
-  model.translation_m = translation.value_or(Vec3{});
-  model.rotation_deg = rotation.value_or(Vec3{});
   model.scale = scale.value_or(1.0);
   return model;
 }
@@ -252,10 +276,73 @@ Result<std::vector<ModelReference>> ReadModels(const Table& scene, const char* k
   return models;
 }
 
+/// The boxes or the walls of a scene, as phantoms.
+template <typename ReadShape>
+Result<void> ReadSurfaces(const Table& scene, const char* key, const ReadShape& read_shape,
+                          std::vector<ModelReference>* phantoms) {
+  PLEINAIR_ASSIGN_OR_RETURN(const std::vector<Table> tables, scene.Tables(key));
+  for (std::size_t i = 0; i < tables.size(); ++i) {
+    const std::string name = std::string(key) + " " + std::to_string(i + 1);
+    Result<DescribedSurface> surface = read_shape(tables[i]);
+    if (!surface && !surface.error().where.empty()) return tl::make_unexpected(surface.error());
+    if (!surface) {
+      return InputError(scene.file(), name + " " + surface.error().what, surface.error().remedy);
+    }
+    ModelReference& model = phantoms->emplace_back();
+    model.surface = *std::move(surface);
+    model.surface->name = name;
+    PLEINAIR_ASSIGN_OR_RETURN(const std::optional<Vec3> color, tables[i].Triple("color"));
+    if (color) model.surface->reflectance = {color->x, color->y, color->z};
+    PLEINAIR_RETURN_IF_ERROR(ReadPlacement(tables[i], &model));
+  }
+  return {};
+}
+
+Result<DescribedSurface> ReadBox(const Table& table) {
+  PLEINAIR_RETURN_IF_ERROR(
+      table.AllowOnly({"from_m", "to_m", "color", "translation_m", "rotation_deg"}));
+  PLEINAIR_ASSIGN_OR_RETURN(const std::optional<Vec3> from, table.Triple("from_m"));
+  PLEINAIR_ASSIGN_OR_RETURN(const std::optional<Vec3> to, table.Triple("to_m"));
+  if (!from || !to) {
+    return InputError("", "lacks a corner", "add from_m and to_m: two opposite corners, metres");
+  }
+  return BoxSurface(*from, *to);
+}
+
+Result<DescribedSurface> ReadWall(const Table& table) {
+  PLEINAIR_RETURN_IF_ERROR(
+      table.AllowOnly({"corners_m", "color", "translation_m", "rotation_deg"}));
+  PLEINAIR_ASSIGN_OR_RETURN(std::vector<Vec3> corners, table.Triples("corners_m"));
+  return WallSurface(std::move(corners));
+}
+
+/// [ground], or `ground = false`: none is assumed.
+Result<void> ReadGround(const Table& scene, GroundFacts* facts) {
+  facts->may_be_assumed = true;
+  const toml::node* node = scene.Find("ground");
+  if (node == nullptr) return {};
+  if (node->is_boolean()) {
+    PLEINAIR_ASSIGN_OR_RETURN(const std::optional<bool> wanted, scene.Flag("ground"));
+    facts->is_given = wanted.value_or(false);
+    facts->may_be_assumed = facts->is_given;
+    return {};
+  }
+  PLEINAIR_ASSIGN_OR_RETURN(const std::vector<Table> tables, scene.Tables("ground"));
+  if (tables.size() != 1) return scene.Fail("ground", "is given more than once", "keep one ground");
+  const Table& ground = tables[0];
+  PLEINAIR_RETURN_IF_ERROR(ground.AllowOnly({"size_m", "height_m", "color"}));
+  facts->is_given = true;
+  PLEINAIR_ASSIGN_OR_RETURN(facts->size_m, ground.Number("size_m"));
+  PLEINAIR_ASSIGN_OR_RETURN(facts->height_m, ground.Number("height_m"));
+  PLEINAIR_ASSIGN_OR_RETURN(const std::optional<Vec3> color, ground.Triple("color"));
+  if (color) facts->color = LinearRgb{color->x, color->y, color->z};
+  return {};
+}
+
 Result<SceneFacts> ReadScene(const Table& scene) {
   PLEINAIR_RETURN_IF_ERROR(
       scene.AllowOnly({"time", "cloudiness", "turbidity", "exposure_gain", "camera_response",
-                       "place", "marker", "phantom", "object"}));
+                       "place", "marker", "ground", "box", "wall", "phantom", "object"}));
   SceneFacts facts;
   PLEINAIR_ASSIGN_OR_RETURN(facts.place_time.start, ReadTime(scene, "time"));
   PLEINAIR_ASSIGN_OR_RETURN(const std::vector<Table> places, scene.Tables("place"));
@@ -268,6 +355,9 @@ Result<SceneFacts> ReadScene(const Table& scene) {
   }
   if (!markers.empty()) PLEINAIR_RETURN_IF_ERROR(ReadMarker(markers[0], &facts.marker));
   PLEINAIR_ASSIGN_OR_RETURN(facts.phantoms, ReadModels(scene, "phantom"));
+  PLEINAIR_RETURN_IF_ERROR(ReadSurfaces(scene, "box", ReadBox, &facts.phantoms));
+  PLEINAIR_RETURN_IF_ERROR(ReadSurfaces(scene, "wall", ReadWall, &facts.phantoms));
+  PLEINAIR_RETURN_IF_ERROR(ReadGround(scene, &facts.ground));
   PLEINAIR_ASSIGN_OR_RETURN(facts.objects, ReadModels(scene, "object"));
   PLEINAIR_ASSIGN_OR_RETURN(const std::optional<std::string> sky, scene.Text("cloudiness"));
   if (sky) {

@@ -8,6 +8,7 @@
 
 #include "compositor/light/light_solver.h"
 #include "compositor/light/scaled_sky.h"
+#include "compositor/models/polygon_model.h"
 #include "compositor/photometry/sky_fit.h"
 #include "devices/calibration/response_file.h"
 #include "scene/marker_heading.h"
@@ -39,13 +40,19 @@ compositor::NormalsMode NormalsOf(scene::Shading shading) {
   return compositor::NormalsMode::kFromFile;
 }
 
+Result<compositor::Model> ModelOf(const scene::ModelReference& reference, bool is_phantom) {
+  if (!reference.surface) {
+    return compositor::LoadModel(reference.file, {NormalsOf(reference.shading), is_phantom});
+  }
+  const scene::DescribedSurface& surface = *reference.surface;
+  return compositor::PolygonModel(surface.name, surface.polygons, surface.reflectance);
+}
+
 }  // namespace
 
 Result<compositor::PlacedModel> PlaceModel(const scene::ModelReference& reference,
                                            bool is_phantom) {
-  PLEINAIR_ASSIGN_OR_RETURN(
-      compositor::Model model,
-      compositor::LoadModel(reference.file, {NormalsOf(reference.shading), is_phantom}));
+  PLEINAIR_ASSIGN_OR_RETURN(compositor::Model model, ModelOf(reference, is_phantom));
   return compositor::PlacedModel{
       std::make_shared<const compositor::Model>(std::move(model)),
       LinearOf({reference.translation_m, reference.rotation_deg, reference.scale}),

@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
+#include <cstddef>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 #include "app/live/live_recorder.h"
 #include "app/replay/report/report.h"
@@ -49,8 +51,22 @@ std::string Beside(const fs::path& folder, const fs::path& file) {
 
 std::string Vector(Vec3 v) { return fmt::format("[{}, {}, {}]", v.x, v.y, v.z); }
 
+/// A surface that the scene describes, as walls.
+void AddSurface(const scene::ModelReference& model, std::string* text) {
+  const scene::DescribedSurface& surface = *model.surface;
+  for (const std::vector<Vec3>& polygon : surface.polygons) {
+    *text += "\n[[wall]]\ncorners_m = [";
+    for (std::size_t i = 0; i < polygon.size(); ++i)
+      *text += (i == 0 ? "" : ", ") + Vector(polygon[i]);
+    *text += fmt::format("]\ncolor = [{}, {}, {}]\ntranslation_m = {}\nrotation_deg = {}\n",
+                         surface.reflectance.r, surface.reflectance.g, surface.reflectance.b,
+                         Vector(model.translation_m), Vector(model.rotation_deg));
+  }
+}
+
 void AddModel(const char* table, const scene::ModelReference& model, const fs::path& folder,
               std::string* text) {
+  if (model.surface) return AddSurface(model, text);
   *text += fmt::format(
       "\n[[{}]]\nfile = {}\nshading = \"{}\"\ntranslation_m = {}\nrotation_deg = {}\nscale = {}\n",
       table, Beside(folder, model.file), Word(model.shading), Vector(model.translation_m),
@@ -71,6 +87,7 @@ std::string SceneToml(const scene::SceneDescription& scene, UtcTime start, const
   if (!scene.camera_response.empty()) {
     text += fmt::format("camera_response = {}\n", Beside(folder, scene.camera_response));
   }
+  if (scene.phantoms.empty()) text += "ground = false\n";
   text += fmt::format("\n[place]\nlatitude_deg = {}\nlongitude_deg = {}\nheight_m = {}\n",
                       scene.place_time.latitude_deg, scene.place_time.longitude_deg,
                       scene.place_time.height_m);

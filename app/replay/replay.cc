@@ -71,6 +71,12 @@ Result<devices::Recording> Prepare(ReplayState& state) {
   return recording;
 }
 
+bool AssumesGround(const scene::SceneDescription& scene) {
+  return std::any_of(scene.phantoms.begin(), scene.phantoms.end(), [](const auto& phantom) {
+    return phantom.surface && phantom.surface->is_assumed;
+  });
+}
+
 /// Collects the warnings known before compositing.
 void Warn(ReplayState& state) {
   std::vector<std::string>& warnings = state.report.warnings;
@@ -87,6 +93,10 @@ void Warn(ReplayState& state) {
   add(DrawingWarnings(state.renderer().samples()));
   if (state.scene().objects.empty()) {
     warnings.emplace_back("The scene has no virtual object: the frames are unchanged.");
+  } else if (AssumesGround(state.scene())) {
+    warnings.emplace_back(
+        "The scene has no phantom: level ground in the marker's plane is assumed. Describe what is "
+        "there ([ground], [[box]], [[wall]]), or write ground = false.");
   } else if (state.scene().phantoms.empty()) {
     warnings.emplace_back("The scene has no phantom: the objects cast no shadow on real surfaces.");
   }

@@ -303,11 +303,22 @@ TEST(Replay, ReportsThatWithoutPhantomsNothingTakesTheShadow) {
   MakeShortRecording(folder / "site", 1, true);
   std::string scene = ReadFile(folder / "site/scene.toml");
   const std::string phantom = "[[phantom]]\nfile = \"phantom.obj\"\n";
-  WriteFile(folder / "site/scene.toml", scene.erase(scene.find(phantom), phantom.size()));
+  scene.erase(scene.find(phantom), phantom.size());
+  WriteFile(folder / "site/scene.toml", "ground = false\n" + scene);
   const RunResult run =
-      RunPleinair({"replay", folder / "site", "-o", folder / "out", "--no-video"});
+      RunPleinair({"replay", folder / "site", "-o", folder / "out", "--frames", "--no-video"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.err, HasSubstr("no phantom: the objects cast no shadow on real surfaces"));
+  // Without a word about the ground, it is level, and the object's shadow falls on it.
+  WriteFile(folder / "site/scene.toml", scene);
+  const RunResult on_ground =
+      RunPleinair({"replay", folder / "site", "-o", folder / "ground", "--frames", "--no-video"});
+  ASSERT_EQ(on_ground.exit_code, 0) << on_ground.err;
+  EXPECT_THAT(on_ground.err, HasSubstr("level ground in the marker's plane is assumed"));
+  const cv::Mat floating = cv::imread(folder / "out/frames/0000.png", cv::IMREAD_GRAYSCALE);
+  const cv::Mat standing = cv::imread(folder / "ground/frames/0000.png", cv::IMREAD_GRAYSCALE);
+  cv::Mat darker = floating - standing;  // Clipped at zero.
+  EXPECT_GT(cv::countNonZero(darker > 20), 300);
 }
 
 TEST(Replay, NamesOddFoldersOnOneLineAndRepeatsItsCommandAsAShellTakesIt) {
