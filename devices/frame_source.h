@@ -24,6 +24,12 @@ class FrameSource {
   /// deliver them.
   virtual void SkipTo(std::int64_t /*index*/) {}
 
+  /// Index of the first frame whose time stamp is not before a time; the number of frames if there
+  /// is none. Nullopt: not known without decoding.
+  virtual std::optional<std::int64_t> FirstFrameFrom(std::int64_t /*timestamp_ns*/) const {
+    return std::nullopt;
+  }
+
   /// Total number of frames, if known (recordings).
   virtual std::optional<std::int64_t> FrameCount() const = 0;
 

@@ -19,6 +19,7 @@ constexpr const char* kExamples =
     "  pleinair compare out/demo recordings/courtyard_midday\n"
     "  pleinair detect photo.jpg --calibration camera.yaml --size-mm 140\n"
     "  pleinair marker 17 -o marker.pdf\n"
+    "  pleinair film walk.mov\n"
     "  pleinair calibrate --charuco 8x6 photos/ -o camera.json\n"
     "  pleinair response my_recording -o camera.response\n"
     "  pleinair target poster.jpg --width-mm 420 -o poster.target\n"
@@ -75,6 +76,7 @@ int RunCommandLine(int argc, const char* const* argv) {
     AddLiveCommand(app, result);
     AddDetectCommand(app, result);
     AddMarkerCommand(app, result);
+    AddFilmCommand(app, result);
     AddTargetCommand(app, result);
     AddBoardCommand(app, result);
     AddPathCommand(app, result);

@@ -23,6 +23,11 @@ struct ReplayArguments {
     std::string hours, every = "10min";
     std::optional<std::int64_t> frame;
   } day;  ///< Options of the time-lapse.
+  struct Range {
+    std::optional<std::int64_t> frame;
+    std::optional<double> from_s, to_s;
+  } range;
+  bool frames = false;
   bool no_video = false;
   bool json = false;
   struct Research {

@@ -10,15 +10,30 @@ namespace pleinair::app {
 void AddReplayOptions(CLI::App& command, ReplayArguments& arguments) {
   command
       .add_option("RECORDING", arguments.paths.recording,
-                  "Folder of a recording (pleinair's own or EuRoC's), or a video file")
+                  "Folder of a recording (pleinair's own or EuRoC's), a film, or a picture")
       ->required();
   command.add_option("-o,--output", arguments.paths.output, "Folder for the results")->required();
   command.add_option("--scene", arguments.paths.scene,
                      "Scene file (TOML or JSON) instead of the recording's own");
   command.add_option("--calibration", arguments.paths.calibration,
                      "Calibration of the lens (own JSON, OpenCV, ROS or Kalibr YAML)");
-  command.add_flag("--frames", arguments.options.write_frames,
-                   "Also write every frame as a PNG picture");
+  CLI::Option* frame =
+      command
+          .add_option("--frame", arguments.range.frame,
+                      "Compose this frame alone, counted from 0, as a PNG picture in frames/")
+          ->check(CLI::NonNegativeNumber);
+  constexpr double kMaxTime_s = 1e8;
+  command
+      .add_option("--from", arguments.range.from_s,
+                  "Begin with the first frame at or after this time, in seconds of the recording")
+      ->check(NumberRange(0.0, kMaxTime_s))
+      ->excludes(frame);
+  command
+      .add_option("--to", arguments.range.to_s,
+                  "End with the last frame at or before this time, in seconds of the recording")
+      ->check(NumberRange(0.0, kMaxTime_s))
+      ->excludes(frame);
+  command.add_flag("--frames", arguments.frames, "Also write every frame as a PNG picture");
   command
       .add_option("--export", arguments.exports,
                   "Also write the camera's trajectory for other programs: gltf (camera.glb), "

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <exception>
 #include <iostream>
 #include <string>
@@ -10,6 +11,7 @@
 
 #include "app/options/picture_size.h"
 #include "app/replay/report/report_json.h"
+#include "devices/images/image_file.h"
 #include "gl/shader_library.h"
 #include "shadows/shadow_method.h"
 
@@ -44,7 +46,10 @@ std::string CommandText(const ReplayArguments& arguments) {
   if (!light.camera_response.empty()) {
     text += " --response " + Quoted(light.camera_response.string());
   }
-  if (arguments.options.write_frames) text += " --frames";
+  if (arguments.range.frame) text += fmt::format(" --frame {}", *arguments.range.frame);
+  if (arguments.range.from_s) text += fmt::format(" --from {}", *arguments.range.from_s);
+  if (arguments.range.to_s) text += fmt::format(" --to {}", *arguments.range.to_s);
+  if (arguments.frames) text += " --frames";
   if (!arguments.size.empty()) text += " --size " + arguments.size;
   for (std::size_t i = 0; i < arguments.exports.size(); ++i) {
     text += (i == 0 ? " --export " : ",") + arguments.exports[i];
@@ -93,6 +98,18 @@ std::string CommandText(const ReplayArguments& arguments) {
   return text;
 }
 
+Result<void> SetRange(const ReplayArguments& arguments, devices::FrameRange* range) {
+  constexpr double kSecond_ns = 1e9;
+  const ReplayArguments::Range& given = arguments.range;
+  if (given.from_s && given.to_s && *given.from_s > *given.to_s) {
+    return InputError("--from", "is after --to", "swap them");
+  }
+  range->frame = given.frame;
+  if (given.from_s) range->from_ns = std::llround(*given.from_s * kSecond_ns);
+  if (given.to_s) range->until_ns = std::llround(*given.to_s * kSecond_ns);
+  return {};
+}
+
 Result<void> Run(ReplayArguments& arguments) {
   ReplayOptions& options = arguments.options;
   options.recording = arguments.paths.recording;
@@ -125,7 +142,11 @@ Result<void> Run(ReplayArguments& arguments) {
     options.composer.fog.fill(arguments.fog.back());
     std::copy(arguments.fog.begin(), arguments.fog.end(), options.composer.fog.begin());
   }
-  options.write_video = !arguments.no_video;
+  PLEINAIR_RETURN_IF_ERROR(SetRange(arguments, &options.range));
+  // A single picture is no video.
+  const bool is_still = arguments.range.frame || devices::IsImageFile(options.recording);
+  options.write_frames = arguments.frames || is_still;
+  options.write_video = !arguments.no_video && !is_still;
   options.command = CommandText(arguments);
   PLEINAIR_ASSIGN_OR_RETURN(const ReplayReport report, Replay(options));
   if (arguments.json) {

@@ -33,7 +33,11 @@ Result<std::unique_ptr<exports::VideoWriter>> OpenVideo(
   ReplayReport& report = state.report;
   exports::VideoWriter::Options options{
       report.film.width, report.film.height, report.film.frame_rate_hz, report.film.curve, {}};
-  if (sound) options.sound = exports::CopiedSound{sound->film, sound->start_s};
+  if (sound) {
+    constexpr double kSecond_ns = 1e9;
+    options.sound = exports::CopiedSound{
+        sound->film, sound->start_s + static_cast<double>(state.first_stamp_ns) / kSecond_ns};
+  }
   PLEINAIR_ASSIGN_OR_RETURN(
       auto video, exports::VideoWriter::Create(state.folder.staging() / "composite.mp4", options));
   if (!video->why_silent().empty()) report.warnings.push_back(video->why_silent());

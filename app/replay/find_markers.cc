@@ -16,9 +16,12 @@ Result<void> FindMarkers(ReplayState& state, devices::Recording recording) {
   PLEINAIR_ASSIGN_OR_RETURN(auto detections,
                             DetectionsWriter::Create(state.folder.staging() / "detections.jsonl"));
   const bool keeps_messages = state.options.exports.contains(exports::TrajectoryFormat::kMcap);
+  bool is_first = true;
   const auto take = [&](const devices::Frame& frame,
                         const session::TrackedFrame& tracked) -> Result<void> {
     state.frame_warnings.Add(frame.index, tracked.warnings);
+    if (is_first) state.first_stamp_ns = frame.timestamp_ns;
+    is_first = false;
     state.lost_frames += frame.lost_before;
     std::string line =
         DetectionsWriter::Line(frame.index, frame.timestamp_ns, tracked.observations, tracked.lost);

@@ -8,6 +8,7 @@
 #include "app/replay/time_lapse/moments.h"
 #include "base/image_size.h"
 #include "compositor/composer_options.h"
+#include "devices/recordings/frame_range.h"
 #include "export/trajectories/trajectory_files.h"
 #include "session/light_options.h"
 
@@ -19,6 +20,7 @@ struct ReplayOptions {
   std::filesystem::path output;                      ///< Folder; created if missing.
   std::optional<std::filesystem::path> scene;        ///< Replaces the recording's scene.
   std::optional<std::filesystem::path> calibration;  ///< Required for a plain video.
+  devices::FrameRange range;                         ///< Part of the recording; all by default.
   bool write_frames = false;
   bool write_video = true;
   std::set<exports::TrajectoryFormat> exports;  ///< Trajectory formats in addition to TUM.

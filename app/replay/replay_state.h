@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/output/output_folder.h"
@@ -13,6 +14,7 @@
 #include "app/replay/time_lapse/moments.h"
 #include "base/error.h"
 #include "base/stage_times.h"
+#include "devices/recordings/frame_range.h"
 #include "devices/recordings/recording.h"
 #include "export/trajectories/mcap_trajectory.h"
 #include "session/pipeline.h"
@@ -27,6 +29,7 @@ struct ReplayState {
   std::unique_ptr<session::Pipeline> pipeline{};
   FrameWarnings frame_warnings{};                   ///< From the tracker.
   std::vector<exports::MarkersMessage> messages{};  ///< Lines of detections.jsonl, for MCAP.
+  std::int64_t first_stamp_ns = 0;                  ///< Of the first frame of the range.
   std::int64_t lost_frames = 0;                     ///< Dropped by the recorder.
   TimeLapseMoments day_moments{};
   StageTimes times{};
@@ -34,7 +37,12 @@ struct ReplayState {
   std::chrono::steady_clock::time_point begun = std::chrono::steady_clock::now();
 
   Result<devices::Recording> OpenRecording() const {
-    return devices::OpenRecording(options.recording, {options.calibration, options.scene});
+    PLEINAIR_ASSIGN_OR_RETURN(
+        devices::Recording recording,
+        devices::OpenRecording(options.recording, {options.calibration, options.scene}));
+    recording.frames = devices::LimitFrames(std::move(recording.frames), options.range,
+                                            options.recording.string());
+    return recording;
   }
   const scene::SceneDescription& scene() const { return pipeline->scene(); }
   session::SceneRenderer& renderer() const { return pipeline->renderer(); }

@@ -112,6 +112,24 @@ Result<FilmDemuxer> FilmDemuxer::Open(const std::filesystem::path& file) {
   return FilmDemuxer(name, std::move(format), track, colors);
 }
 
+std::map<std::string, std::string> FilmDemuxer::metadata() const {
+  std::map<std::string, std::string> metadata;
+  for (const AVDictionary* tags : {format_->metadata, track().metadata}) {
+    const AVDictionaryEntry* tag = nullptr;
+    while ((tag = av_dict_get(tags, "", tag, AV_DICT_IGNORE_SUFFIX)) != nullptr) {
+      metadata.insert_or_assign(tag->key, tag->value);
+    }
+  }
+  return metadata;
+}
+
+std::string FilmDemuxer::codec() const { return avcodec_get_name(track().codecpar->codec_id); }
+
+std::string FilmDemuxer::sound_codec() const {
+  const int sound = av_find_best_stream(format_.get(), AVMEDIA_TYPE_AUDIO, -1, track_, nullptr, 0);
+  return sound < 0 ? "" : avcodec_get_name(format_->streams[sound]->codecpar->codec_id);
+}
+
 Result<bool> FilmDemuxer::Read(AVPacket* packet) {
   for (;;) {
     av_packet_unref(packet);

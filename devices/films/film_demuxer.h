@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -34,7 +35,11 @@ class FilmDemuxer {
 
   /// What the container and the coded images state; the images' word counts where both do.
   FilmColorTags color_tags() const { return color_tags_; }
-  const AVFormatContext& container() const { return *format_; }
+  /// Of the container and the track, by libavformat's keys; the track's count where both have one.
+  std::map<std::string, std::string> metadata() const;
+  /// Names of the codecs; `sound_codec` is empty without sound.
+  std::string codec() const;
+  std::string sound_codec() const;
   const AVStream& track() const { return *format_->streams[track_]; }
   const std::string& name() const { return name_; }
 

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <exception>
+#include <fstream>
 
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -112,6 +113,13 @@ Result<ImageSize> InspectImage(std::string_view bytes, const std::string& name) 
   if (bytes.starts_with(kPngSignature)) return InspectPng(bytes, name);
   if (bytes.starts_with(kJpegStart)) return InspectJpeg(bytes, name);
   return InputError(name, "is neither a PNG nor a JPEG image", "convert it to PNG");
+}
+
+bool IsImageFile(const std::filesystem::path& file) {
+  std::string start(kPngSignature.size(), '\0');
+  std::ifstream(file, std::ios::binary)
+      .read(start.data(), static_cast<std::streamsize>(start.size()));
+  return start == kPngSignature || start.starts_with(kJpegStart);
 }
 
 Result<ImageSize> InspectImageFile(const std::filesystem::path& file) {

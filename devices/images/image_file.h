@@ -21,6 +21,9 @@ Result<ImageSize> InspectImage(std::string_view bytes, const std::string& name);
 /// Size of a PNG or JPEG file.
 Result<ImageSize> InspectImageFile(const std::filesystem::path& file);
 
+/// True if a file begins as a PNG or JPEG does.
+bool IsImageFile(const std::filesystem::path& file);
+
 struct DecodedImage {
   RgbImage rgb;    ///< sRGB-encoded, as stored: no color profile is applied.
   GreyImage grey;  ///< Luma of the encoded values, ITU-R BT.601 weights as in OpenCV.

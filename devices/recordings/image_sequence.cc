@@ -63,6 +63,13 @@ class ImageSequence : public FrameSource {
     if (index > 0) next_ = std::clamp(static_cast<std::size_t>(index), next_, frames_.size());
   }
 
+  std::optional<std::int64_t> FirstFrameFrom(std::int64_t timestamp_ns) const override {
+    const auto first = std::find_if(
+        frames_.begin(), frames_.end(),
+        [&](const SequenceFrame& frame) { return frame.timestamp_ns >= timestamp_ns; });
+    return first - frames_.begin();
+  }
+
   std::optional<std::int64_t> FrameCount() const override {
     return static_cast<std::int64_t>(frames_.size());
   }

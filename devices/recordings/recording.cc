@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "devices/calibration/calibration.h"
+#include "devices/images/image_file.h"
 #include "devices/recordings/euroc.h"
 #include "devices/recordings/frame_pack.h"
 #include "devices/recordings/image_sequence.h"
@@ -238,7 +239,8 @@ Result<Recording> OpenEuroc(const fs::path& folder, const fs::path& camera_folde
   return recording;
 }
 
-Result<Recording> OpenPlainVideo(const fs::path& file, const RecordingOptions& options) {
+/// A video or a single picture.
+Result<Recording> OpenPlainFile(const fs::path& file, const RecordingOptions& options) {
   if (file.extension() == ".mcap") {
     return InputError(file.string(), "is an MCAP file, a format that can be written but not read",
                       "name a recording's folder or a video (docs/guide/reference/recordings.md)");
@@ -254,8 +256,14 @@ Result<Recording> OpenPlainVideo(const fs::path& file, const RecordingOptions& o
   if (options.scene) {
     PLEINAIR_ASSIGN_OR_RETURN(recording.scene, SceneFromFile(*options.scene, {}));
   }
+  const ImageSize size{recording.camera.width, recording.camera.height};
+  if (IsImageFile(file)) {
+    recording.frame_rate_hz = 1.0;  // Of a single frame; it appears nowhere.
+    PLEINAIR_ASSIGN_OR_RETURN(recording.frames, OpenImageSequence({{file, 0, std::nullopt}}, size));
+    return recording;
+  }
   VideoMetadata facts;
-  facts.size = {recording.camera.width, recording.camera.height};
+  facts.size = size;
   PLEINAIR_ASSIGN_OR_RETURN(OpenedVideo video, OpenVideo(file, facts));
   recording.frame_rate_hz = video.frame_rate_hz;
   recording.curve = video.curve;
@@ -273,7 +281,7 @@ Result<Recording> OpenRecording(const fs::path& path, const RecordingOptions& op
     if (name == "recording.json" || name == "scene.json") {
       return OpenOwnFolder(path.parent_path(), options);
     }
-    return OpenPlainVideo(path, options);
+    return OpenPlainFile(path, options);
   }
   if (!IsFolder(path)) {
     return InputError(path.string(), "there is no such recording", "check the name and the folder");

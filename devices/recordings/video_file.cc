@@ -93,6 +93,12 @@ class VideoFile : public FrameSource {
     if (index > 0) wanted_ = std::max(wanted_, static_cast<std::size_t>(index));
   }
 
+  std::optional<std::int64_t> FirstFrameFrom(std::int64_t timestamp_ns) const override {
+    std::size_t frame = 0;
+    while (frame < times_.frames && times_.Nanoseconds(frame) < timestamp_ns) ++frame;
+    return static_cast<std::int64_t>(frame);
+  }
+
   std::optional<std::int64_t> FrameCount() const override {
     return static_cast<std::int64_t>(times_.frames);
   }
@@ -215,6 +221,34 @@ Result<FrameTimes> TimesOf(const FilmDemuxer& film, FilmStamps stamps, const Vid
   return times;
 }
 
+/// The longest time between two frames.
+void FindPause(const FilmStamps& stamps, FilmFacts* facts) {
+  if (!stamps.are_stored()) return;
+  constexpr double kSecond_ns = 1e9;
+  for (std::size_t i = 1; i < stamps.frames(); ++i) {
+    const double interval_s =
+        static_cast<double>(stamps.Nanoseconds(i) - stamps.Nanoseconds(i - 1)) / kSecond_ns;
+    if (interval_s <= facts->longest_interval_s) continue;
+    facts->longest_interval_s = interval_s;
+    facts->longest_interval_after = static_cast<std::int64_t>(i) - 1;
+  }
+  facts->duration_s = static_cast<double>(stamps.Nanoseconds(stamps.frames() - 1)) / kSecond_ns;
+}
+
+FilmFacts FactsOf(const FilmDemuxer& film, const FilmColors& colors, const DisplayTurn& turn,
+                  const FilmStamps& stamps) {
+  FilmFacts facts;
+  facts.codec = film.codec();
+  facts.colors = colors.Text();
+  facts.is_hdr = colors.IsHdr();
+  facts.clockwise_deg = turn.clockwise_deg();
+  facts.is_mirrored = turn.mirrored();
+  facts.sound_codec = film.sound_codec();
+  facts.tags = TagsOfFilm(film.metadata());
+  FindPause(stamps, &facts);
+  return facts;
+}
+
 Result<OpenedVideo> Open(const std::filesystem::path& file, const VideoMetadata& facts) {
   PLEINAIR_ASSIGN_OR_RETURN(FilmDemuxer film, FilmDemuxer::Open(file));
   PLEINAIR_ASSIGN_OR_RETURN(const DisplayTurn turn, TurnOf(film));
@@ -233,10 +267,11 @@ Result<OpenedVideo> Open(const std::filesystem::path& file, const VideoMetadata&
   const AVRational unit = film.track().time_base;
   PLEINAIR_ASSIGN_OR_RETURN(FilmStamps stamps,
                             FilmStamps::Create(packets, {unit.num, unit.den}, film.name()));
-  PLEINAIR_ASSIGN_OR_RETURN(FrameTimes times,
-                            TimesOf(film, std::move(stamps), facts, &opened.frame_rate_hz));
   PLEINAIR_ASSIGN_OR_RETURN(const FilmColors colors,
                             FilmColors::Create(film.color_tags(), stored.height, film.name()));
+  opened.facts = FactsOf(film, colors, turn, stamps);
+  PLEINAIR_ASSIGN_OR_RETURN(FrameTimes times,
+                            TimesOf(film, std::move(stamps), facts, &opened.frame_rate_hz));
   opened.curve = colors.curve();
   if (times.HasStored()) opened.start_s = times.stored.start_s();
   FilmPictures pictures(film.name(), colors, turn);

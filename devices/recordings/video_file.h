@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "devices/films/film_curve.h"
+#include "devices/films/film_facts.h"
 #include "devices/frame_source.h"
 #include "devices/images/image_file.h"
 
@@ -31,6 +32,7 @@ struct OpenedVideo {
   /// The container's time of the first frame, for its sound; nothing: the stamps are not the
   /// film's.
   std::optional<double> start_s;
+  FilmFacts facts;
   FilmCurve curve = FilmCurve::kSrgb;  ///< Of the frames' pixel values.
 };
 

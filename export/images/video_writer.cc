@@ -19,8 +19,13 @@ namespace {
 
 using devices::LibavPointer;
 
-constexpr int kTicksPerFrame = 100;  // Resolution of irregular time stamps.
-constexpr int kEncoderThreads = 4;   // Fixed: x264's decisions depend on it.
+// Resolution of irregular time stamps: at least a hundredth of a frame, and half a millisecond
+// unless frames are minutes apart.
+constexpr int kMinTicksPerFrame = 100;
+constexpr double kTicksPerSecond = 2000.0, kMinFineRate_hz = 0.01;
+// Stamps are moved to the regular raster over at most this time, and a fiftieth of a frame.
+constexpr double kMaxSnap_s = 0.5e-3;
+constexpr int kEncoderThreads = 4;  // Fixed: x264's decisions depend on it.
 
 constexpr double kFastestNtsc_hz = 1000.0;
 
@@ -50,6 +55,11 @@ AVColorTransferCharacteristic TransferTag(devices::FilmCurve curve) {
       break;
   }
   return AVCOL_TRC_IEC61966_2_1;
+}
+
+int TicksPerFrame(double rate_hz) {
+  if (rate_hz < kMinFineRate_hz) return kMinTicksPerFrame;
+  return std::max(kMinTicksPerFrame, static_cast<int>(std::ceil(kTicksPerSecond / rate_hz)));
 }
 
 /// Converts libav's error number to an Error about `file`. System errors about files keep their
@@ -120,7 +130,7 @@ class LibavVideoWriter final : public VideoWriter {
 
   Result<void> Finish() override {
     PLEINAIR_RETURN_IF_ERROR(Encode(nullptr));
-    PLEINAIR_RETURN_IF_ERROR(WriteSoundUntil(stamps_.last_tick + kTicksPerFrame));
+    PLEINAIR_RETURN_IF_ERROR(WriteSoundUntil(stamps_.last_tick + stamps_.ticks_per_frame));
     if (const int code = av_write_trailer(format_.get()); code < 0) {
       return tl::make_unexpected(LibavError(file_, code));
     }
@@ -141,11 +151,12 @@ class LibavVideoWriter final : public VideoWriter {
  private:
   void ConfigureCodec(const AVCodec& codec) {
     const AVRational rate = RateFraction(options_.frame_rate_hz);
+    stamps_.ticks_per_frame = TicksPerFrame(options_.frame_rate_hz);
     codec_->width = options_.width + options_.width % 2;
     codec_->height = options_.height + options_.height % 2;
     codec_->pix_fmt = AV_PIX_FMT_YUV420P;
     codec_->framerate = rate;
-    codec_->time_base = {rate.den, rate.num * kTicksPerFrame};
+    codec_->time_base = {rate.den, rate.num * stamps_.ticks_per_frame};
     codec_->colorspace = AVCOL_SPC_BT709;
     codec_->color_primaries = AVCOL_PRI_BT709;
     codec_->color_trc = TransferTag(options_.curve);
@@ -210,8 +221,11 @@ class LibavVideoWriter final : public VideoWriter {
     if (!stamps_.first_ns) stamps_.first_ns = timestamp_ns;
     const double seconds = static_cast<double>(timestamp_ns - *stamps_.first_ns) * 1e-9;
     std::int64_t tick = std::llround(seconds / av_q2d(codec_->time_base));
-    const std::int64_t raster = (tick + kTicksPerFrame / 2) / kTicksPerFrame * kTicksPerFrame;
-    if (std::abs(tick - raster) <= kTicksPerFrame / 50) tick = raster;
+    const int each = stamps_.ticks_per_frame;
+    const std::int64_t raster = (tick + each / 2) / each * each;
+    const double off_s =
+        std::abs(seconds - static_cast<double>(raster) * av_q2d(codec_->time_base));
+    if (std::abs(tick - raster) <= each / 50 && off_s <= kMaxSnap_s) tick = raster;
     stamps_.last_tick = std::max(tick, stamps_.last_tick + 1);
     return stamps_.last_tick;
   }
@@ -230,7 +244,7 @@ class LibavVideoWriter final : public VideoWriter {
       code = avcodec_receive_packet(codec_.get(), packet_.get());
       if (code == AVERROR(EAGAIN) || code == AVERROR_EOF) return {};
       if (code < 0) break;
-      packet_->duration = kTicksPerFrame;
+      packet_->duration = stamps_.ticks_per_frame;
       PLEINAIR_RETURN_IF_ERROR(WriteSoundUntil(packet_->dts));
       av_packet_rescale_ts(packet_.get(), codec_->time_base, stream_->time_base);
       packet_->stream_index = stream_->index;
@@ -250,6 +264,7 @@ class LibavVideoWriter final : public VideoWriter {
   AVStream* stream_ = nullptr;  // Owned by the format.
   std::vector<std::uint8_t> padded_;
   struct Stamps {
+    int ticks_per_frame = kMinTicksPerFrame;
     std::optional<std::int64_t> first_ns;
     std::int64_t last_tick = -1;  // One before the first.
   };

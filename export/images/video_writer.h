@@ -34,8 +34,8 @@ class VideoWriter {
                                                      const Options& options);
   virtual ~VideoWriter() = default;
 
-  /// Adds an image displayed from `timestamp_ns` on. Time stamps must increase. Stamps within a
-  /// fiftieth of a frame of the regular raster are moved to it.
+  /// Adds an image displayed from `timestamp_ns` on. Time stamps must increase. Stamps within
+  /// half a millisecond and a fiftieth of a frame of the regular raster are moved to it.
   virtual Result<void> Add(ImageView<const std::uint8_t> rgb, std::int64_t timestamp_ns) = 0;
 
   /// Writes the encoder's remaining frames and the index. Without it the file is unusable.

@@ -140,6 +140,21 @@ TEST(FilmTimes, StampsAreExactWhereTheirProductsExceed64Bits) {
   EXPECT_EQ(stamps->Nanoseconds(1), year_s * 1'000'000'000);
 }
 
+TEST(FilmTimes, HoursOfFilmAreIndexed) {
+  // 100,000 frames in decoding order I P B B.
+  std::vector<FilmPacket> packets;
+  constexpr std::int64_t kOrder[] = {0, 3, 1, 2};
+  for (std::int64_t i = 0; i < 100'000; ++i) {
+    packets.push_back({(i / 4 * 4 + kOrder[i % 4]) * 1001, (i - 2) * 1001, i % 60 == 0, false});
+  }
+  const auto stamps = FilmStamps::Create(packets, {1, 30'000}, "film");
+  ASSERT_TRUE(stamps);
+  EXPECT_EQ(stamps->frames(), 100'000U);
+  EXPECT_EQ(stamps->Nanoseconds(99'999), 3'336'633'300'000);
+  EXPECT_EQ(stamps->EntryFor(99'999)->frame, 99'960U);
+  EXPECT_NEAR(*stamps->TypicalRate_hz(), 29.97, 1e-3);
+}
+
 TEST(FilmTimes, ImpossibleStampsAreRefused) {
   const auto message = [](const std::vector<FilmPacket>& packets, FilmTimeBase unit) {
     const auto stamps = FilmStamps::Create(packets, unit, "film.mp4");

@@ -1,0 +1,133 @@
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <libexif/exif-data.h>
+
+#include "devices/films/film_tags.h"
+
+namespace pleinair::devices {
+namespace {
+
+struct ExifDeleter {
+  void operator()(ExifData* data) const { exif_data_unref(data); }
+};
+
+/// Values of one image's EXIF data.
+class Exif {
+ public:
+  explicit Exif(ExifData* data) : data_(data), order_(exif_data_get_byte_order(data)) {}
+
+  std::string Text(ExifIfd group, int tag) const {
+    const ExifEntry* entry = Entry(group, tag);
+    if (entry == nullptr || entry->format != EXIF_FORMAT_ASCII) return {};
+    std::string text(reinterpret_cast<const char*>(entry->data), entry->size);
+    text.resize(std::min(text.size(), text.find('\0')));
+    for (char& c : text) {
+      if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = ' ';
+    }
+    return text;
+  }
+
+  std::optional<double> Number(ExifIfd group, int tag, unsigned index = 0) const {
+    const ExifEntry* entry = Entry(group, tag);
+    if (entry == nullptr || index >= entry->components) return std::nullopt;
+    const std::size_t bytes = exif_format_get_size(entry->format);
+    if (entry->size < (index + 1) * bytes) return std::nullopt;
+    const unsigned char* at = entry->data + index * bytes;
+    if (entry->format == EXIF_FORMAT_SHORT) return exif_get_short(at, order_);
+    if (entry->format == EXIF_FORMAT_BYTE) return *at;
+    if (entry->format != EXIF_FORMAT_RATIONAL) return std::nullopt;
+    const ExifRational fraction = exif_get_rational(at, order_);
+    if (fraction.denominator == 0) return std::nullopt;
+    return static_cast<double>(fraction.numerator) / fraction.denominator;
+  }
+
+  /// Degrees, minutes and seconds, with the letter of the negative direction.
+  std::optional<double> Angle(int tag, int reference, char negative) const {
+    double angle = 0.0, unit = 1.0;
+    for (unsigned i = 0; i < 3; ++i, unit /= 60.0) {
+      const auto part = Number(EXIF_IFD_GPS, tag, i);
+      if (!part) return std::nullopt;
+      angle += *part * unit;
+    }
+    return Text(EXIF_IFD_GPS, reference).starts_with(negative) ? -angle : angle;
+  }
+
+ private:
+  const ExifEntry* Entry(ExifIfd group, int tag) const {
+    return exif_content_get_entry(data_->ifd[group], static_cast<ExifTag>(tag));
+  }
+
+  ExifData* data_;
+  ExifByteOrder order_;
+};
+
+// Tags that libexif 0.6.24 has no names for (Exif 2.31).
+constexpr int kOffsetTimeOriginal = 0x9011;
+
+std::optional<FilmTags::Place> PlaceOf(const Exif& exif) {
+  const auto latitude = exif.Angle(EXIF_TAG_GPS_LATITUDE, EXIF_TAG_GPS_LATITUDE_REF, 'S');
+  const auto longitude = exif.Angle(EXIF_TAG_GPS_LONGITUDE, EXIF_TAG_GPS_LONGITUDE_REF, 'W');
+  if (!latitude || !longitude) return std::nullopt;
+  FilmTags::Place place{*latitude, *longitude, {}};
+  if (const auto height_m = exif.Number(EXIF_IFD_GPS, EXIF_TAG_GPS_ALTITUDE)) {
+    const bool below = exif.Number(EXIF_IFD_GPS, EXIF_TAG_GPS_ALTITUDE_REF) == 1.0;
+    place.height_m = below ? -*height_m : *height_m;
+  }
+  return place;
+}
+
+/// "2025:09:14 13:05:00" and "+02:00" as RFC 3339.
+std::string TimeOf(std::string time, const std::string& offset) {
+  constexpr std::size_t kYear = 4, kMonth = 7, kDay = 10;
+  if (time.size() < 19) return {};
+  time[kYear] = time[kMonth] = '-';
+  time[kDay] = 'T';
+  return Rfc3339OfTag(time.substr(0, 19) + offset);
+}
+
+}  // namespace
+
+FilmTags TagsOfPhoto(std::string_view jpeg) {
+  FilmTags tags;
+  const std::unique_ptr<ExifData, ExifDeleter> data(exif_data_new_from_data(
+      reinterpret_cast<const unsigned char*>(jpeg.data()), static_cast<unsigned>(jpeg.size())));
+  if (!data) return tags;
+  const Exif exif(data.get());
+  tags.place = PlaceOf(exif);
+  if (tags.place &&
+      (std::abs(tags.place->latitude_deg) > 90.0 || std::abs(tags.place->longitude_deg) > 180.0)) {
+    tags.place.reset();
+    tags.rejected.emplace_back("Its place is none on Earth.");
+  }
+  const std::string time = exif.Text(EXIF_IFD_EXIF, EXIF_TAG_DATE_TIME_ORIGINAL);
+  const std::string offset = exif.Text(EXIF_IFD_EXIF, kOffsetTimeOriginal);
+  if (!time.empty()) {
+    tags.time = TimeOf(time, offset);
+    if (tags.time.empty()) {
+      tags.rejected.push_back("Its time, \"" + time + offset +
+                              "\", is no date with an offset from UTC.");
+    }
+  }
+  if (const auto heading = exif.Number(EXIF_IFD_GPS, EXIF_TAG_GPS_IMG_DIRECTION)) {
+    if (*heading >= 0.0 && *heading <= 360.0) {
+      tags.view_heading_deg = *heading;
+      tags.view_heading_is_magnetic =
+          exif.Text(EXIF_IFD_GPS, EXIF_TAG_GPS_IMG_DIRECTION_REF).starts_with('M');
+    } else {
+      tags.rejected.emplace_back("Its direction is no angle of a compass.");
+    }
+  }
+  const std::string make = exif.Text(EXIF_IFD_0, EXIF_TAG_MAKE);
+  const std::string model = exif.Text(EXIF_IFD_0, EXIF_TAG_MODEL);
+  tags.camera = model.starts_with(make) ? model : make + " " + model;
+  const auto focal = exif.Number(EXIF_IFD_EXIF, EXIF_TAG_FOCAL_LENGTH_IN_35MM_FILM);
+  if (focal && *focal > 0.0) tags.focal_length_35mm = *focal;
+  return tags;
+}
+
+}  // namespace pleinair::devices
