@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/units.h"
+#include "base/up_axis.h"
 #include "base/utc_time.h"
 #include "base/vector.h"
 #include "scene/described_surface.h"
@@ -46,14 +47,24 @@ struct MarkerDescription {
 /// Vertex normals of a model: from its file, per face, or averaged per vertex.
 enum class Shading { kFromFile, kFlat, kSmooth };
 
-/// A model placed in marker coordinates: x_marker = R scale x_model + translation.
+/// The point of a model that is placed: the origin of its file, or the centre of its bounding box
+/// at its lowest height.
+enum class ModelOrigin { kFile, kBottomCentre };
+
+/// A model placed in marker coordinates: x_marker = R scale x_model + translation. x_model is
+/// in metres, relative to `origin`, and upright on the marker.
 struct ModelReference {
   std::filesystem::path file;
   std::optional<DescribedSurface> surface;  ///< In place of the file.
   Shading shading = Shading::kFromFile;
+  /// Axis of the file that points up. Unset: y for glTF; OBJ has the axes of the marker.
+  std::optional<UpAxis> up;
+  /// Metres of one unit of the file (scene/length_units.h). Unset: the file is in metres.
+  std::optional<double> unit_m;
+  ModelOrigin origin = ModelOrigin::kFile;
   Vec3 translation_m;  ///< Of the model's origin, marker coordinates.
   Vec3 rotation_deg;   ///< About the marker's x, then y, then z axis.
-  double scale = 1.0;  ///< Model units to metres.
+  double scale = 1.0;  ///< Enlarges the model about its origin.
 };
 
 /// The user's description of the scene: everything that the compositor may use. Holds no ground

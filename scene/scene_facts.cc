@@ -148,11 +148,12 @@ Result<void> CheckPlacement(const ModelReference& model, const std::string& name
   if (file.empty()) return InputError(name, "has a model without a file name", "add its file");
   if (!Within(model.scale, 1e-9, 1e9)) {
     return InputError(name, "scales " + file + " by a number that is not greater than zero",
-                      "scale is metres for one unit of the model");
+                      "scale enlarges the model");
   }
   for (const Vec3& v : {model.translation_m, model.rotation_deg}) {
-    if (!Within(v.x, -1e6, 1e6) || !Within(v.y, -1e6, 1e6) || !Within(v.z, -1e6, 1e6)) {
-      return InputError(name, "places " + file + " beyond a million metres or degrees",
+    // Eastings and northings of surveys reach ten million metres.
+    if (!Within(v.x, -1e7, 1e7) || !Within(v.y, -1e7, 1e7) || !Within(v.z, -1e7, 1e7)) {
+      return InputError(name, "places " + file + " beyond ten million metres or degrees",
                         "check its translation_m and rotation_deg");
     }
   }

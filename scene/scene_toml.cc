@@ -23,6 +23,7 @@
 #include <utility>
 
 #include "scene/cloudiness.h"
+#include "scene/length_units.h"
 #include "scene/scene_facts.h"
 #include "scene/zoned_time.h"
 
@@ -243,9 +244,28 @@ Result<void> ReadPlacement(const Table& table, ModelReference* model) {
   return {};
 }
 
+/// Axes, unit and origin of a model's file.
+Result<void> ReadFrame(const Table& table, ModelReference* model) {
+  PLEINAIR_ASSIGN_OR_RETURN(const std::optional<std::string> up, table.Text("up"));
+  if (up && *up != "y" && *up != "z") return table.Fail("up", "is not known", "known are y and z");
+  if (up) model->up = *up == "y" ? UpAxis::kY : UpAxis::kZ;
+  PLEINAIR_ASSIGN_OR_RETURN(const std::optional<std::string> unit, table.Text("unit"));
+  if (unit) {
+    const std::optional<double> metres = MetresOfUnit(*unit);
+    if (!metres) return table.Fail("unit", "is not known", "known are mm, cm, m, in and ft");
+    model->unit_m = metres;
+  }
+  PLEINAIR_ASSIGN_OR_RETURN(const std::optional<std::string> origin, table.Text("origin"));
+  if (origin && *origin != "file" && *origin != "bottom centre") {
+    return table.Fail("origin", "is not known", "known are file and bottom centre");
+  }
+  if (origin == "bottom centre") model->origin = ModelOrigin::kBottomCentre;
+  return {};
+}
+
 Result<ModelReference> ReadModel(const Table& table, const Table& scene, const char* key) {
-  PLEINAIR_RETURN_IF_ERROR(
-      table.AllowOnly({"file", "shading", "translation_m", "rotation_deg", "scale"}));
+  PLEINAIR_RETURN_IF_ERROR(table.AllowOnly(
+      {"file", "shading", "up", "unit", "origin", "translation_m", "rotation_deg", "scale"}));
   ModelReference model;
   PLEINAIR_ASSIGN_OR_RETURN(const std::optional<std::string> file, table.Text("file"));
   if (!file || file->empty()) return scene.Fail(key, "has no file", "add file = \"name.obj\"");
@@ -260,6 +280,7 @@ Result<ModelReference> ReadModel(const Table& table, const Table& scene, const c
       return table.Fail("shading", "is not known", "known are file, flat and smooth");
     }
   }
+  PLEINAIR_RETURN_IF_ERROR(ReadFrame(table, &model));
   PLEINAIR_RETURN_IF_ERROR(ReadPlacement(table, &model));
   PLEINAIR_ASSIGN_OR_RETURN(const std::optional<double> scale, table.Number("scale"));
   model.scale = scale.value_or(1.0);

@@ -130,8 +130,7 @@ Result<void> BackgroundLight::Place(const std::vector<ObjectPlace>& objects) {
   placed_.objects = objects;
   const std::size_t phantoms = setup_.placed.size() - objects.size();
   for (std::size_t i = 0; i < objects.size(); ++i) {
-    setup_.placed[phantoms + i].linear = LinearOf(objects[i]);
-    setup_.placed[phantoms + i].translation_m = objects[i].translation_m;
+    MoveTo(objects[i], &setup_.placed[phantoms + i]);
   }
   compositor::LightSolverOptions options;
   options.rays_per_vertex = kFewRays;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "compositor/models/placed_model.h"
 #include "sky/sky_model.h"
 
 namespace pleinair::session {
@@ -31,6 +32,11 @@ Mat3 LinearOf(const ObjectPlace& place) {
   Mat3 linear = RotationXyz(place.rotation_deg);
   for (double& element : linear.m) element *= place.scale;
   return linear;
+}
+
+void MoveTo(const ObjectPlace& place, compositor::PlacedModel* model) {
+  model->linear = LinearOf(place);
+  model->translation_m = place.translation_m + model->linear * model->model->origin_m;
 }
 
 SceneEdit UneditedScene(const scene::SceneDescription& scene,

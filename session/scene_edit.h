@@ -7,6 +7,10 @@
 #include "compositor/composer_options.h"
 #include "scene/scene_description.h"
 
+namespace pleinair::compositor {
+struct PlacedModel;
+}
+
 namespace pleinair::session {
 
 /// Placement of a virtual object, as in devices::ModelReference.
@@ -19,6 +23,9 @@ struct ObjectPlace {
 
 /// Rotation and scale of a placed object, marker from model coordinates.
 Mat3 LinearOf(const ObjectPlace& place);
+
+/// Places a model in marker coordinates.
+void MoveTo(const ObjectPlace& place, compositor::PlacedModel* model);
 
 /// Level of detail of a live session (app/live/live_detail.h).
 enum class Detail { kAutomatic, kFine, kFast, kCoarse };

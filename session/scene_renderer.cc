@@ -40,9 +40,14 @@ compositor::NormalsMode NormalsOf(scene::Shading shading) {
   return compositor::NormalsMode::kFromFile;
 }
 
-Result<compositor::Model> ModelOf(const scene::ModelReference& reference, bool is_phantom) {
+Result<compositor::Model> ModelOf(const scene::ModelReference& reference, bool is_phantom,
+                                  const scene::MarkerDescription& marker) {
   if (!reference.surface) {
-    return compositor::LoadModel(reference.file, {NormalsOf(reference.shading), is_phantom});
+    const compositor::ModelFrame frame{reference.up, marker.upright ? UpAxis::kY : UpAxis::kZ,
+                                       reference.unit_m.value_or(1.0),
+                                       reference.origin == scene::ModelOrigin::kBottomCentre};
+    return compositor::LoadModel(reference.file,
+                                 {NormalsOf(reference.shading), is_phantom, frame});
   }
   const scene::DescribedSurface& surface = *reference.surface;
   return compositor::PolygonModel(surface.name, surface.polygons, surface.reflectance);
@@ -50,13 +55,14 @@ Result<compositor::Model> ModelOf(const scene::ModelReference& reference, bool i
 
 }  // namespace
 
-Result<compositor::PlacedModel> PlaceModel(const scene::ModelReference& reference,
-                                           bool is_phantom) {
-  PLEINAIR_ASSIGN_OR_RETURN(compositor::Model model, ModelOf(reference, is_phantom));
-  return compositor::PlacedModel{
-      std::make_shared<const compositor::Model>(std::move(model)),
-      LinearOf({reference.translation_m, reference.rotation_deg, reference.scale}),
-      reference.translation_m, is_phantom};
+Result<compositor::PlacedModel> PlaceModel(const scene::ModelReference& reference, bool is_phantom,
+                                           const scene::MarkerDescription& marker) {
+  PLEINAIR_ASSIGN_OR_RETURN(compositor::Model model, ModelOf(reference, is_phantom, marker));
+  compositor::PlacedModel placed;
+  placed.model = std::make_shared<const compositor::Model>(std::move(model));
+  placed.is_phantom = is_phantom;
+  MoveTo({reference.translation_m, reference.rotation_deg, reference.scale}, &placed);
+  return placed;
 }
 
 SceneRenderer::SceneRenderer(const CameraModel& camera, const scene::SceneDescription& scene)
@@ -71,11 +77,11 @@ Result<std::unique_ptr<SceneRenderer>> SceneRenderer::Create(
   if (light.match_look) renderer->look_.emplace();
   std::vector<compositor::PlacedModel>& placed = renderer->placed_;
   for (const scene::ModelReference& phantom : scene.phantoms) {
-    PLEINAIR_ASSIGN_OR_RETURN(auto model, PlaceModel(phantom, true));
+    PLEINAIR_ASSIGN_OR_RETURN(auto model, PlaceModel(phantom, true, scene.marker));
     placed.push_back(std::move(model));
   }
   for (const scene::ModelReference& object : scene.objects) {
-    PLEINAIR_ASSIGN_OR_RETURN(auto model, PlaceModel(object, false));
+    PLEINAIR_ASSIGN_OR_RETURN(auto model, PlaceModel(object, false, scene.marker));
     placed.push_back(std::move(model));
   }
   if (scene.objects.empty()) return renderer;
@@ -201,9 +207,7 @@ Result<void> SceneRenderer::Edit(const SceneEdit& edit) {
   exposure_.SetLocked(edit.lock_exposure);
   if (!composer_) return {};
   for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
-    compositor::PlacedModel& placed = placed_[scene_.phantoms.size() + i];
-    placed.linear = LinearOf(edit.objects[i]);
-    placed.translation_m = edit.objects[i].translation_m;
+    MoveTo(edit.objects[i], &placed_[scene_.phantoms.size() + i]);
   }
   MoveObjects();
   compositor::ComposerOptions drawing = edit.drawing;
@@ -227,7 +231,7 @@ void SceneRenderer::MoveObjects() {
     for (double& element : back.m) element /= place.scale * place.scale;
     const Mat3 moved = placed_[model].linear * back;
     composer_->MoveModel(static_cast<int>(model), moved,
-                         placed_[model].translation_m - moved * place.translation_m);
+                         scene_.objects[i].translation_m - moved * place.translation_m);
   }
 }
 

@@ -14,6 +14,7 @@
 #include "base/utc_time.h"
 #include "compositor/composer.h"
 #include "compositor/light/daylight/daylight_coefficients.h"
+#include "compositor/light/phantom_rays.h"
 #include "compositor/picture/occluder_mask.h"
 #include "scene/scene_description.h"
 #include "session/baked_lighting.h"
@@ -110,6 +111,10 @@ class SceneRenderer {
   }
   /// Phantoms, then objects, at their current placement.
   const std::vector<compositor::PlacedModel>& placed() const { return placed_; }
+  /// Ray queries against the phantoms; null if there are no objects to draw.
+  const compositor::PhantomRays* phantom_rays() const {
+    return light_ ? &light_->phantoms() : nullptr;
+  }
 
   /// Returns the frame with the virtual objects in the light of `time`. Objects that cover the
   /// marker, by `cover`, are in front of the virtual objects. `followed`: how the frame's light
@@ -157,7 +162,9 @@ class SceneRenderer {
   RenderTimes times_;
 };
 
-/// Loads a scene's model and places it in marker coordinates. Errors as compositor::LoadModel.
-Result<compositor::PlacedModel> PlaceModel(const scene::ModelReference& reference, bool is_phantom);
+/// Loads a scene's model and places it in the coordinates of `marker`, upright if the model says
+/// which way is up. Errors as compositor::LoadModel.
+Result<compositor::PlacedModel> PlaceModel(const scene::ModelReference& reference, bool is_phantom,
+                                           const scene::MarkerDescription& marker);
 
 }  // namespace pleinair::session

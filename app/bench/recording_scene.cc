@@ -32,7 +32,7 @@ Result<shadows::BenchScene> RecordingScene(const std::filesystem::path& recordin
   shadows::Box objects;
   const auto add = [&](const scene::ModelReference& reference, bool is_phantom) -> Result<void> {
     PLEINAIR_ASSIGN_OR_RETURN(const compositor::PlacedModel placed,
-                              session::PlaceModel(reference, is_phantom));
+                              session::PlaceModel(reference, is_phantom, description.marker));
     for (const compositor::Mesh& mesh : placed.model->meshes) {
       shadows::BenchMesh& out = scene.meshes.emplace_back();
       for (const auto& p : mesh.positions) {

@@ -7,6 +7,8 @@
 
 #include "app/live/live_recorder.h"
 #include "app/replay/report/report.h"
+#include "base/up_axis.h"
+#include "scene/length_units.h"
 
 namespace pleinair::app {
 namespace {
@@ -67,10 +69,15 @@ void AddSurface(const scene::ModelReference& model, std::string* text) {
 void AddModel(const char* table, const scene::ModelReference& model, const fs::path& folder,
               std::string* text) {
   if (model.surface) return AddSurface(model, text);
-  *text += fmt::format(
-      "\n[[{}]]\nfile = {}\nshading = \"{}\"\ntranslation_m = {}\nrotation_deg = {}\nscale = {}\n",
-      table, Beside(folder, model.file), Word(model.shading), Vector(model.translation_m),
-      Vector(model.rotation_deg), model.scale);
+  *text += fmt::format("\n[[{}]]\nfile = {}\nshading = \"{}\"\n", table, Beside(folder, model.file),
+                       Word(model.shading));
+  if (model.up) *text += fmt::format("up = \"{}\"\n", *model.up == UpAxis::kY ? "y" : "z");
+  if (model.unit_m) {
+    *text += fmt::format("unit = \"{}\"\n", scene::NameOfUnit(*model.unit_m));
+  }
+  if (model.origin == scene::ModelOrigin::kBottomCentre) *text += "origin = \"bottom centre\"\n";
+  *text += fmt::format("translation_m = {}\nrotation_deg = {}\nscale = {}\n",
+                       Vector(model.translation_m), Vector(model.rotation_deg), model.scale);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "app/replay/draw_day.h"
 #include "app/replay/estimate_light.h"
 #include "app/replay/find_markers.h"
+#include "app/replay/placement_warnings.h"
 #include "app/replay/replay_state.h"
 #include "app/replay/replay_warnings.h"
 #include "app/replay/report/report_html.h"
@@ -90,6 +91,9 @@ void Warn(ReplayState& state) {
         fmt::format("{} frames were lost when this was recorded.", state.lost_frames));
   }
   add(ModelWarnings(state.renderer().placed()));
+  add(PlacementWarnings(state.renderer().placed(), state.scene(),
+                        {state.pipeline->output_camera(), state.report.path},
+                        state.renderer().phantom_rays()));
   add(DrawingWarnings(state.renderer().samples()));
   if (state.scene().objects.empty()) {
     warnings.emplace_back("The scene has no virtual object: the frames are unchanged.");

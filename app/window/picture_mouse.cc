@@ -88,18 +88,9 @@ std::vector<ObjectBox> BoxesOf(const std::vector<compositor::PlacedModel>& place
                                const scene::SceneDescription& scene) {
   std::vector<ObjectBox> boxes;
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-    constexpr double kFar = 1e30;
-    ObjectBox box{
-        scene.objects[i].file.filename().string(), {kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
-    for (const compositor::Mesh& mesh : placed[scene.phantoms.size() + i].model->meshes) {
-      for (const auto& p : mesh.positions) {
-        box.min = {std::min<double>(box.min.x, p[0]), std::min<double>(box.min.y, p[1]),
-                   std::min<double>(box.min.z, p[2])};
-        box.max = {std::max<double>(box.max.x, p[0]), std::max<double>(box.max.y, p[1]),
-                   std::max<double>(box.max.z, p[2])};
-      }
-    }
-    boxes.push_back(std::move(box));
+    const compositor::ModelBounds bounds =
+        compositor::BoundsOf(*placed[scene.phantoms.size() + i].model);
+    boxes.push_back({scene.objects[i].file.filename().string(), bounds.min_m, bounds.max_m});
   }
   return boxes;
 }

@@ -20,6 +20,9 @@
 namespace pleinair::compositor {
 namespace {
 
+// Max. length of the name of the program that wrote the file.
+constexpr std::size_t kMaxNameLength = 120;
+
 /// Extensions that a file may require and that change nothing the reader supports.
 const std::set<std::string>& KnownExtensions() {
   static const std::set<std::string> known = {
@@ -45,6 +48,7 @@ class GltfReader {
   GltfReader(const std::string& content, const std::filesystem::path& file)
       : content_(content), file_(file), where_(file.string()) {
     model_.file = file;
+    model_.format = Model::Format::kGltf;
   }
 
   Result<Model> Read() {
@@ -58,6 +62,7 @@ class GltfReader {
     PLEINAIR_ASSIGN_OR_RETURN(uv_maps_, ReadGltfMaterials(gltf_, encoded_, file_, &model_));
     PLEINAIR_RETURN_IF_ERROR(ReadNodes());
     if (model_.meshes.empty()) return GltfError(where_, "its scene has no triangles");
+    model_.written_by = gltf_.asset.generator.substr(0, kMaxNameLength);
     if (!gltf_.animations.empty()) model_.unsupported_features.insert("animations");
     return std::move(model_);
   }
@@ -235,10 +240,15 @@ class GltfReader {
     return {};
   }
 
-  Result<void> Place(const GltfPlacement& placement, Mesh* mesh) const {
+  Result<void> Place(const GltfPlacement& placement, Mesh* mesh) {
     for (auto& p : mesh->positions) {
-      const Vec3 placed = placement.linear * Vec3{p[0], p[1], p[2]} + placement.translation_m;
-      if (!(std::fabs(placed.x) + std::fabs(placed.y) + std::fabs(placed.z) < 1e8)) {
+      const Vec3 in_file = placement.linear * Vec3{p[0], p[1], p[2]} + placement.translation_m;
+      if (!has_vertex_ && Extent(in_file) > kMinFarCoordinate && Extent(in_file) < kMaxCoordinate) {
+        model_.origin_m = in_file;
+      }
+      has_vertex_ = true;
+      const Vec3 placed = in_file - model_.origin_m;
+      if (!(Extent(placed) < kMaxExtent)) {
         return GltfError(where_, "its nodes move a vertex beyond 1e8 metres");
       }
       p = {static_cast<float>(placed.x), static_cast<float>(placed.y),
@@ -264,6 +274,8 @@ class GltfReader {
     return {};
   }
 
+  static double Extent(Vec3 v) { return std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z); }
+
   const std::string& content_;
   const std::filesystem::path& file_;
   std::string where_;
@@ -271,6 +283,7 @@ class GltfReader {
   EncodedGltfImages encoded_;
   Model model_;
   std::vector<UvMap> uv_maps_;  ///< By material.
+  bool has_vertex_ = false;
   std::size_t vertex_count_ = 0;
   std::size_t triangle_count_ = 0;
 };

@@ -10,6 +10,8 @@
 
 #include "base/error.h"
 #include "base/image.h"
+#include "base/vector.h"
+#include "compositor/models/model_frame.h"
 
 namespace pleinair::compositor {
 
@@ -63,7 +65,16 @@ struct Mesh {
 
 /// A loaded model: indexed triangle meshes with their materials and textures.
 struct Model {
+  enum class Format { kObj, kGltf };
+
   std::filesystem::path file;
+  Format format = Format::kObj;
+  /// The program that wrote the file, by its own words: the first comment of an OBJ, the generator
+  /// of a glTF. Empty if absent.
+  std::string written_by;
+  /// Added to all positions. Zero, except for coordinates of which single precision would lose
+  /// half a millimetre: those of a survey.
+  Vec3 origin_m;
   std::vector<Material> materials;
   std::vector<Mesh> meshes;
   std::vector<Image<std::uint8_t>> textures;  ///< As in the file, 3 or 4 channels.
@@ -86,14 +97,15 @@ struct ModelOptions {
   /// If true, glass counts as opaque. Phantoms need it, because they are often modelled transparent
   /// to show the real surface behind them.
   bool opaque_glass = false;
+  ModelFrame frame;
 };
 
 /// Loads OBJ (with its MTL) or glTF 2.0 (.gltf/.glb); the content decides the format.
 ///
-/// Both formats are in metres. OBJ defines no axes; its coordinates are used unchanged, z up. glTF
-/// is y-up with the front towards +z. Its axes are rotated: x to x, y to z and z to −y. Upright
-/// glTF models thus stay upright, and their front faces −y. Without a placement, x points to the
-/// marker's right, y to its upper edge and z out of the marker.
+/// Without a frame in `options`, both formats are in metres. OBJ defines no axes; its coordinates
+/// are used unchanged. glTF is y-up with the front towards +z. Its axes are rotated to z-up: x to
+/// x, y to z and z to −y. Upright glTF models thus stay upright, and their front faces −y. Without
+/// a placement, x points to the marker's right, y to its upper edge and z out of the marker.
 ///
 /// Limits keep hostile files from exhausting memory: 20 M vertices, textures of 16384 × 16384.
 /// Errors: missing or cut short, indices out of range, values not finite, textures missing, too

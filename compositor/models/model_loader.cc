@@ -6,6 +6,7 @@
 #include "compositor/models/mesh_normals.h"
 #include "compositor/models/model.h"
 #include "compositor/models/model_files.h"
+#include "compositor/models/model_frame.h"
 #include "compositor/models/obj_parser.h"
 #include "compositor/models/texture_decoder.h"
 
@@ -23,6 +24,7 @@ Result<Model> LoadModel(const std::filesystem::path& file, const ModelOptions& o
   try {
     PLEINAIR_ASSIGN_OR_RETURN(const std::string content, ReadWholeFile(file));
     PLEINAIR_ASSIGN_OR_RETURN(Model model, ParseByContent(content, file));
+    ApplyFrame(options.frame, &model);
     ApplyNormals(options.normals, &model);
     if (model.meshes.empty()) {
       return InputError(file.string(), "all its triangles are degenerate", "export it again");

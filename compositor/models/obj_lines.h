@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -30,7 +31,12 @@ class ObjLines {
         joined_.append(line);
         line = joined_;
       }
-      line = line.substr(0, line.find('#'));
+      const std::size_t comment = line.find('#');
+      if (comment != std::string_view::npos && first_comment_.empty()) {
+        first_comment_ =
+            Trimmed(line.substr(std::min(line.find_first_not_of('#', comment), line.size())));
+      }
+      line = line.substr(0, comment);
       rest_ = Trimmed(line);
       if (!rest_.empty()) return true;
     }
@@ -47,6 +53,9 @@ class ObjLines {
 
   /// The remaining text of the statement.
   std::string_view Rest() const { return rest_; }
+
+  /// The first comment with text so far.
+  const std::string& first_comment() const { return first_comment_; }
 
   /// Number of the statement's first line, from 1.
   int line_number() const { return line_number_; }
@@ -72,6 +81,7 @@ class ObjLines {
   std::string_view text_;
   std::string_view rest_;
   std::string joined_;
+  std::string first_comment_;
   int line_number_ = 0;
   int next_line_number_ = 1;
 };
@@ -84,15 +94,20 @@ inline std::string Quoted(std::string_view word) {
   return quoted;
 }
 
-/// Parses a finite number of magnitude at most 1e8, which a float can hold. Returns nothing
-/// otherwise.
-inline std::optional<float> ParseObjNumber(std::string_view word) {
+/// Parses a finite number of magnitude at most `max`. Returns nothing otherwise.
+inline std::optional<double> ParseObjDouble(std::string_view word, double max) {
   if (word.starts_with('+')) word.remove_prefix(1);
   double value = 0.0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
-  if (!std::isfinite(value) || std::fabs(value) > 1e8) return std::nullopt;
-  return static_cast<float>(value);
+  if (!std::isfinite(value) || std::fabs(value) > max) return std::nullopt;
+  return value;
+}
+
+/// As above for numbers of magnitude at most 1e8, which a float can hold.
+inline std::optional<float> ParseObjNumber(std::string_view word) {
+  const std::optional<double> value = ParseObjDouble(word, 1e8);
+  return value ? std::optional(static_cast<float>(*value)) : std::nullopt;
 }
 
 }  // namespace pleinair::compositor

@@ -1,7 +1,9 @@
 #include "compositor/models/obj_parser.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -18,6 +20,8 @@ namespace pleinair::compositor {
 namespace {
 
 constexpr std::int64_t kNone = -1;
+// Max. length of the name of the program that wrote the file.
+constexpr std::size_t kMaxNameLength = 120;
 
 struct Corner {
   std::int64_t position = kNone, uv = kNone, normal = kNone;
@@ -78,6 +82,7 @@ class ObjParser {
       // Drops texture coordinates that no face of the mesh uses.
       if (!built_.has_uvs[static_cast<std::size_t>(&mesh - model_.meshes.data())]) mesh.uvs.clear();
     }
+    model_.written_by = lines_.first_comment().substr(0, kMaxNameLength);
     if (has_colors_) model_.unsupported_features.insert(kVertexColors);
     if (has_lines_) model_.unsupported_features.insert(kPointsAndLines);
     return std::move(model_);
@@ -92,7 +97,7 @@ class ObjParser {
 
   Result<void> Statement(std::string_view keyword) {
     if (keyword == "v") {
-      PLEINAIR_RETURN_IF_ERROR(Vector<3>(&listed_.positions, 3));
+      PLEINAIR_RETURN_IF_ERROR(Position());
       // After the position may come one weight; a color has three numbers.
       has_colors_ |= !lines_.Word().empty() && !lines_.Word().empty();
       return {};
@@ -109,6 +114,32 @@ class ObjParser {
     } else if (keyword == "mtllib") {
       return ReadLibraries();
     }
+    return {};
+  }
+
+  /// Reads a vertex relative to the model's origin, which is the first vertex if that is far away.
+  Result<void> Position() {
+    std::array<double, 3> values{};
+    for (double& value : values) {
+      const std::string_view word = lines_.Word();
+      if (word.empty()) return Fail("a vertex has too few numbers");
+      const std::optional<double> number = ParseObjDouble(word, kMaxCoordinate);
+      if (!number) return Fail(Quoted(word) + " is not a finite number below 1e10");
+      value = *number;
+    }
+    if (listed_.positions.size() >= kMaxVertices) return Fail("has more than 20 million vertices");
+    Vec3& origin = model_.origin_m;
+    const auto is_far = [](double value) { return std::fabs(value) > kMinFarCoordinate; };
+    if (listed_.positions.empty() && std::ranges::any_of(values, is_far)) {
+      origin = {values[0], values[1], values[2]};
+    }
+    const std::array<double, 3> relative{values[0] - origin.x, values[1] - origin.y,
+                                         values[2] - origin.z};
+    if (std::ranges::any_of(relative, [](double value) { return std::fabs(value) > kMaxExtent; })) {
+      return Fail("a vertex is more than 1e8 from the model's origin");
+    }
+    listed_.positions.push_back({static_cast<float>(relative[0]), static_cast<float>(relative[1]),
+                                 static_cast<float>(relative[2])});
     return {};
   }
 

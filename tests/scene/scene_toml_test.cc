@@ -36,6 +36,9 @@ file = "models/wall.obj"
 [[object]]
 file = "models/tower.obj"
 shading = "smooth"
+up = "y"
+unit = "ft"
+origin = "bottom centre"
 translation_m = [1, 2.5, 0]
 rotation_deg = [0, 0, 90]
 scale = 0.001
@@ -160,6 +163,12 @@ TEST(SceneToml, SaysEverythingThatTheCompositorMayKnow) {
   EXPECT_EQ(scene->phantoms[1].shading, Shading::kFromFile);
   ASSERT_EQ(scene->objects.size(), 1U);
   EXPECT_EQ(scene->objects[0].shading, Shading::kSmooth);
+  EXPECT_EQ(scene->objects[0].up, UpAxis::kY);
+  EXPECT_EQ(scene->objects[0].unit_m, 0.3048);
+  EXPECT_EQ(scene->objects[0].origin, ModelOrigin::kBottomCentre);
+  EXPECT_EQ(scene->phantoms[1].up, std::nullopt);
+  EXPECT_EQ(scene->phantoms[1].unit_m, std::nullopt);
+  EXPECT_EQ(scene->phantoms[1].origin, ModelOrigin::kFile);
   EXPECT_EQ(scene->objects[0].translation_m, (Vec3{1, 2.5, 0}));
   EXPECT_EQ(scene->objects[0].rotation_deg, (Vec3{0, 0, 90}));
   EXPECT_EQ(scene->objects[0].scale, 0.001);
@@ -196,7 +205,7 @@ TEST(SceneToml, UnknownKeysAreRefusedWithTheirLine) {
               AllOf(HasSubstr("scene.toml:3: \"turbid\" is unknown"), HasSubstr("turbidity")));
   EXPECT_THAT(Refusal(tests::Replaced(kScene, "height_m", "altitude")),
               HasSubstr("scene.toml:9: \"altitude\" is unknown"));
-  EXPECT_THAT(Refusal(tests::Replaced(kScene, "scale", "size")), HasSubstr("scene.toml:29"));
+  EXPECT_THAT(Refusal(tests::Replaced(kScene, "scale", "size")), HasSubstr("scene.toml:32"));
 }
 
 TEST(SceneToml, LocalTimeIsRefused) {
@@ -237,6 +246,9 @@ TEST(SceneToml, ValuesMustBeInRange) {
   EXPECT_THAT(with("id = 7", "id = -7"), HasSubstr("whole number from 0 up"));
   EXPECT_THAT(with("[1, 2.5, 0]", "[1, 2.5, 1e30]"), HasSubstr("million metres"));
   EXPECT_THAT(with("\"smooth\"", "\"shiny\""), HasSubstr("known are file, flat and smooth"));
+  EXPECT_THAT(with("up = \"y\"", "up = \"x\""), HasSubstr("known are y and z"));
+  EXPECT_THAT(with("\"ft\"", "\"yd\""), HasSubstr("known are mm, cm, m, in and ft"));
+  EXPECT_THAT(with("\"bottom centre\"", "\"top\""), HasSubstr("known are file and bottom centre"));
   EXPECT_THAT(with("\"Hazy\"", "\"grey\""), HasSubstr("known are clear, hazy"));
 }
 

@@ -80,7 +80,8 @@ std::vector<devices::Frame> Film(const std::function<Moment(std::int64_t)>& mome
     poses.push_back(tracking->PoseIn(frame)->observation.camera_from_marker);
   }
   std::vector<compositor::PlacedModel> phantoms;
-  for (const auto& phantom : scene.phantoms) phantoms.push_back(PlaceModel(phantom, true).value());
+  for (const auto& phantom : scene.phantoms)
+    phantoms.push_back(PlaceModel(phantom, true, scene.marker).value());
   const auto solver = compositor::LightSolver::Create(phantoms, {.rays_per_vertex = 16}).value();
   const sky::SunPosition position = scene::SunOver(scene.place_time, scene.place_time.start);
   const auto day = compositor::DescribedSky(scene)->ForSun(position.ToSun(), position.distance_au);

@@ -140,7 +140,7 @@ TEST(ObjModel, TakesGlassForOpaqueWhereAsked) {
   const auto file =
       folder.Write("model.obj", std::string("mtllib thin.mtl\n") + kSquare + "usemtl a\nf 1 2 3\n");
   EXPECT_EQ(LoadModel(file)->meshes[0].role, MeshRole::kRenderOnly) << "it casts no shadow";
-  const auto phantom = LoadModel(file, {.opaque_glass = true});
+  const auto phantom = LoadModel(file, {.opaque_glass = true, .frame = {}});
   ASSERT_TRUE(phantom);
   EXPECT_EQ(phantom->meshes[0].role, MeshRole::kAll);
 }
@@ -168,12 +168,12 @@ TEST(ObjModel, KeepsNormalsOfTheFileUnlessAskedForOthers) {
   const auto kept = LoadObj(roof);
   ASSERT_TRUE(kept);
   for (const auto& normal : kept->meshes[0].normals) EXPECT_EQ(normal[2], 1.0F);
-  const auto flat = LoadObj(roof, {NormalsMode::kFlat});
+  const auto flat = LoadObj(roof, {NormalsMode::kFlat, false, {}});
   ASSERT_TRUE(flat);
   for (const auto& normal : flat->meshes[0].normals) {
     EXPECT_NEAR(std::fabs(normal[0]), std::sqrt(0.5), 1e-5);
   }
-  const auto smooth = LoadObj(roof, {NormalsMode::kSmooth});
+  const auto smooth = LoadObj(roof, {NormalsMode::kSmooth, false, {}});
   ASSERT_TRUE(smooth);
   for (std::size_t i = 0; i < smooth->meshes[0].positions.size(); ++i) {
     if (smooth->meshes[0].positions[i][0] == 1.0F) {

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/camera_model.h"
+#include "compositor/light/phantom_rays.h"
+#include "compositor/models/placed_model.h"
+#include "scene/scene_description.h"
+#include "session/marker_tracks.h"
+
+namespace pleinair::app {
+
+/// The camera and its poses in the frames of a recording.
+struct RecordedViews {
+  const CameraModel& camera;
+  const std::vector<session::Observation>& path;
+};
+
+/// Warnings about models that are probably not placed as meant, at most one sentence each, with the
+/// way out:
+/// - in survey coordinates, with the marker more than a kilometre away;
+/// - more than 100 times larger than the camera's distance from the marker, or 1,000 times smaller,
+///   without a unit in the scene;
+/// - y-up by shape or header (compositor::LooksYUp), without an axis in the scene;
+/// - an object in view in no frame, or hidden by phantoms in every frame.
+///
+/// `models`: the scene's phantoms, then its objects. `phantoms` may be null: nothing is hidden.
+std::vector<std::string> PlacementWarnings(const std::vector<compositor::PlacedModel>& models,
+                                           const scene::SceneDescription& scene,
+                                           const RecordedViews& views,
+                                           const compositor::PhantomRays* phantoms);
+
+}  // namespace pleinair::app
