@@ -23,6 +23,7 @@ constexpr const char* kExamples =
     "  pleinair calibrate --charuco 8x6 photos/ -o camera.json\n"
     "  pleinair response my_recording -o camera.response\n"
     "  pleinair target poster.jpg --width-mm 420 -o poster.target\n"
+    "  pleinair model sculpture.glb -o sheet.png\n"
     "  pleinair path convert out/demo/poses/sg_17.tum path.glb --calibration camera.json\n"
     "  pleinair sun --at 50.0875,14.4213 --time 2025-09-14T11:05:00Z\n"
     "  pleinair sky --at 50.0875,14.4213 --time 2025-09-14T17:00:00Z -o dome.png\n"
@@ -79,6 +80,7 @@ int RunCommandLine(int argc, const char* const* argv) {
     AddFilmCommand(app, result);
     AddTargetCommand(app, result);
     AddBoardCommand(app, result);
+    AddModelCommand(app, result);
     AddPathCommand(app, result);
     AddCalibrateCommand(app, result);
     AddResponseCommand(app, result);

@@ -28,6 +28,7 @@ void AddMarkerCommand(CLI::App& app, CommandResult& result);
 void AddFilmCommand(CLI::App& app, CommandResult& result);
 void AddTargetCommand(CLI::App& app, CommandResult& result);
 void AddBoardCommand(CLI::App& app, CommandResult& result);
+void AddModelCommand(CLI::App& app, CommandResult& result);
 void AddPathCommand(CLI::App& app, CommandResult& result);
 void AddCalibrateCommand(CLI::App& app, CommandResult& result);
 void AddResponseCommand(CLI::App& app, CommandResult& result);
