@@ -160,8 +160,9 @@ Result<std::unique_ptr<Composer>> GlComposer::Make(const CameraModel& camera,
   c.sky_.environment.SetWrap(GL_REPEAT);
   PLEINAIR_RETURN_IF_ERROR(c.UploadSunlight({}));
   PLEINAIR_ASSIGN_OR_RETURN(c.passes_.ratio, ShadowRatioPass::Create());
-  PLEINAIR_ASSIGN_OR_RETURN(c.passes_.objects, ObjectPass::Create());
   PLEINAIR_ASSIGN_OR_RETURN(c.surfaces_, SceneSurfaces::Create(scene));
+  PLEINAIR_ASSIGN_OR_RETURN(c.passes_.objects,
+                            ObjectPass::Create(c.surfaces_.materials().HasDetails()));
   PLEINAIR_RETURN_IF_ERROR(c.SetRenderSize(options));
   PLEINAIR_RETURN_IF_ERROR(c.MakeShadows(c.MapOptions(options)));
   PLEINAIR_RETURN_IF_ERROR(c.ProgramsFor({}));
@@ -177,7 +178,8 @@ Result<void> GlComposer::SetRenderSize(const ComposerOptions& options) {
                                                            : 1.0;
   const RenderCamera render_camera = FitRenderCamera(camera_, supersampling);
   PLEINAIR_ASSIGN_OR_RETURN(canvas_.targets,
-                            RenderTargets::Create(render_camera.width, render_camera.height));
+                            RenderTargets::Create(render_camera.width, render_camera.height,
+                                                  surfaces_.materials().HasDetails()));
   PLEINAIR_ASSIGN_OR_RETURN(
       canvas_.picture,
       CameraPicture::Create(camera_, render_camera, supersampling, options.response));
@@ -227,6 +229,7 @@ Result<const SurfacePrograms*> GlComposer::ProgramsFor(const FrameUniforms& fram
                                 {.fades = shadows_.Fades(),
                                  .needs_airlight = frame.needs_airlight,
                                  .textured = surfaces_.materials().HasTextures(),
+                                 .detailed = surfaces_.materials().HasDetails(),
                                  .glossy = surfaces_.materials().HasGloss()}));
     made.emplace(std::move(programs));
   }

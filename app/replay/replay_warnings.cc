@@ -92,12 +92,8 @@ std::vector<std::string> ModelWarnings(const std::vector<compositor::PlacedModel
   // By file: a file may be both a phantom and an object.
   std::map<std::filesystem::path, std::set<std::string>> by_file;
   for (const compositor::PlacedModel& placed : models) {
+    if (placed.is_phantom) continue;  // It only reflects light: these features do not matter.
     std::set<std::string> unsupported_features = compositor::UnsupportedFeatures(*placed.model);
-    // A phantom only reflects light: other features do not matter.
-    if (placed.is_phantom) {
-      std::erase_if(unsupported_features,
-                    [](const std::string& what) { return what != compositor::kVertexColors; });
-    }
     by_file[placed.model->file].merge(unsupported_features);
   }
   std::vector<std::string> warnings;

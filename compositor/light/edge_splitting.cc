@@ -1,6 +1,7 @@
 #include "compositor/light/edge_splitting.h"
 
 #include "base/vector.h"
+#include "compositor/models/model.h"
 
 namespace pleinair::compositor {
 namespace {
@@ -42,6 +43,9 @@ std::uint32_t AddEdgeMiddle(SurfaceMesh* surface, std::uint32_t a, std::uint32_t
     const auto uv_a = surface->uvs[a];
     const auto uv_b = surface->uvs[b];
     surface->uvs.push_back({(uv_a[0] + uv_b[0]) * 0.5F, (uv_a[1] + uv_b[1]) * 0.5F});
+  }
+  if (!surface->details.empty()) {
+    surface->details.push_back(Middle(surface->details[a], surface->details[b]));
   }
   if (!surface->lifts.empty() || Dot(middle.lift, middle.lift) > 0.0) {
     surface->lifts.resize(surface->positions.size());

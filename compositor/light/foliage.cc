@@ -146,6 +146,7 @@ SurfaceMesh PartOf(const SurfaceMesh& surface, const Keep& keep) {
         part.positions.push_back(surface.positions[vertex]);
         part.normals.push_back(surface.normals[vertex]);
         if (!surface.uvs.empty()) part.uvs.push_back(surface.uvs[vertex]);
+        if (!surface.details.empty()) part.details.push_back(surface.details[vertex]);
       }
       part.indices.push_back(number[vertex]);
     }

@@ -76,11 +76,13 @@ LitMesh MakeLitMesh(const PatchScene& scene, const PatchScene::MeshSide& mesh_si
   mesh.is_phantom = mesh_side.mesh.is_phantom;
   mesh.placed_model = mesh_side.mesh.placed_model;
   mesh.material = mesh_side.mesh.material;
-  mesh.geometry = first_geometry + static_cast<std::uint64_t>(&mesh_side - scene.mesh_sides.data());
+  const auto index = static_cast<int>(&mesh_side - scene.mesh_sides.data());
+  mesh.geometry = first_geometry + static_cast<std::uint64_t>(index);
   mesh.role = mesh_side.mesh.role;
   mesh.positions = mesh_side.mesh.positions;
   mesh.normals = mesh_side.mesh.normals;
-  mesh.uvs = mesh_side.mesh.uvs;
+  mesh.texturing = {mesh_side.mesh.uvs, mesh_side.mesh.details,
+                    mesh_side.twin >= 0 && mesh_side.twin < index};
   mesh.indices = mesh_side.mesh.indices;
   mesh.ambient_with = scene.VertexLight(mesh_side, light.irradiance[0]);
   mesh.sunlight.reflected_with = scene.VertexLight(mesh_side, light.reflected[0]);

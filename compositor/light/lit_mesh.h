@@ -31,6 +31,15 @@ struct MeshSunlight {
   std::vector<std::array<float, 3>> lifts;
 };
 
+/// Attributes of a mesh's vertices besides geometry and light.
+struct MeshTexturing {
+  std::vector<std::array<float, 2>> uvs;  ///< Empty, or one per position.
+  std::vector<VertexDetail> details;      ///< Empty, or one per position.
+  /// The mesh is the side of an open surface that faces away from the file's winding. Bumps that
+  /// stick out of the front go into the back.
+  bool is_back = false;
+};
+
 /// A tessellated surface with the irradiance at its vertices, without direct sunlight. Marker
 /// coordinates. Irradiance has the Daylight's unit (lux, linear Rec.709).
 ///
@@ -49,7 +58,7 @@ struct LitMesh {
   MeshRole role = MeshRole::kAll;
   std::vector<std::array<float, 3>> positions;
   std::vector<std::array<float, 3>> normals;
-  std::vector<std::array<float, 2>> uvs;  ///< Empty, or one per position.
+  MeshTexturing texturing;
   /// Sky and bounced light with the virtual objects present.
   std::vector<std::array<float, 3>> ambient_with;
   /// The same with the phantoms alone. Empty for virtual objects.

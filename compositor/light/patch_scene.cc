@@ -73,6 +73,18 @@ std::array<float, 3> ReflectanceOf(const Model& model, int material_index) {
   return albedo;
 }
 
+/// Mean of the vertices' colors; white without any.
+std::array<float, 3> MeanVertexColor(const std::vector<VertexDetail>& details) {
+  if (details.empty()) return {1.0F, 1.0F, 1.0F};
+  std::array<double, 3> sum{};
+  for (const VertexDetail& detail : details) {
+    for (int c = 0; c < 3; ++c) sum[c] += detail.color[c];
+  }
+  std::array<float, 3> mean{};
+  for (int c = 0; c < 3; ++c) mean[c] = static_cast<float>(sum[c] / details.size());
+  return mean;
+}
+
 Result<void> CheckModel(const PlacedModel& placed) {
   if (placed.model == nullptr) return InputError("scene", "a placed model is missing");
   const std::string file = placed.model->file.string();
@@ -83,6 +95,9 @@ Result<void> CheckModel(const PlacedModel& placed) {
     const std::size_t count = mesh.positions.size();
     if (!mesh.uvs.empty() && mesh.uvs.size() != count) {
       return InputError(file, "mesh \"" + mesh.name + "\" has too few texture coordinates");
+    }
+    if (!mesh.details.empty() && mesh.details.size() != count) {
+      return InputError(file, "mesh \"" + mesh.name + "\" has too few colours of vertices");
     }
     for (const std::uint32_t index : mesh.indices) {
       if (index >= count) return InputError(file, "mesh \"" + mesh.name + "\" lacks a vertex");
@@ -254,8 +269,10 @@ Result<PatchScene> PatchScene::Create(const std::vector<PlacedModel>& models,
     if (divided[i].count > 0) {
       groups = std::make_shared<const SurfacePatches>(std::move(divided[i]));
     }
-    const std::array<float, 3> albedo =
+    std::array<float, 3> albedo =
         ReflectanceOf(*models[surface.placed_model].model, surface.material);
+    const std::array<float, 3> mean_color = MeanVertexColor(surface.details);
+    for (int c = 0; c < 3; ++c) albedo[c] *= mean_color[c];
     const auto front = static_cast<int>(scene.mesh_sides.size());
     if (surface.role != MeshRole::kRenderOnly) {
       AddFaces(surface, ray_meshes[next_ray_mesh++].indices, groups.get(),

@@ -197,6 +197,9 @@ class Cutter {
     mesh_.positions.push_back(position);
     mesh_.normals.push_back(normal);
     mesh_.uvs.push_back(uv);
+    if (!mesh_.details.empty()) {
+      mesh_.details.push_back(compositor::Middle(mesh_.details[a], mesh_.details[b]));
+    }
     return found->second;
   }
 
@@ -219,11 +222,13 @@ void DropUnused(Mesh* mesh) {
     mesh->positions[count] = mesh->positions[i];
     mesh->normals[count] = mesh->normals[i];
     mesh->uvs[count] = mesh->uvs[i];
+    if (!mesh->details.empty()) mesh->details[count] = mesh->details[i];
     moved[i] = count++;
   }
   mesh->positions.resize(count);
   mesh->normals.resize(count);
   mesh->uvs.resize(count);
+  if (!mesh->details.empty()) mesh->details.resize(count);
   for (std::uint32_t& index : mesh->indices) index = moved[index];
 }
 

@@ -205,6 +205,27 @@ template Result<std::vector<std::array<float, 2>>> ReadGltfFloats<2>(const tinyg
 template Result<std::vector<std::array<float, 3>>> ReadGltfFloats<3>(const tinygltf::Model&, int,
                                                                      const std::string&);
 
+template Result<std::vector<std::array<float, 4>>> ReadGltfFloats<4>(const tinygltf::Model&, int,
+                                                                     const std::string&);
+
+Result<std::vector<std::array<float, 4>>> ReadGltfColors(const tinygltf::Model& gltf, int accessor,
+                                                         const std::string& where) {
+  std::vector<std::array<float, 4>> colors;
+  const bool is_rgb = accessor >= 0 && static_cast<std::size_t>(accessor) < gltf.accessors.size() &&
+                      gltf.accessors[static_cast<std::size_t>(accessor)].type == TINYGLTF_TYPE_VEC3;
+  if (is_rgb) {
+    PLEINAIR_ASSIGN_OR_RETURN(const auto rgb, ReadGltfFloats<3>(gltf, accessor, where));
+    colors.reserve(rgb.size());
+    for (const auto& [r, g, b] : rgb) colors.push_back({r, g, b, 1.0F});
+  } else {
+    PLEINAIR_ASSIGN_OR_RETURN(colors, ReadGltfFloats<4>(gltf, accessor, where));
+  }
+  for (auto& color : colors) {
+    for (float& value : color) value = std::clamp(value, 0.0F, 1.0F);
+  }
+  return colors;
+}
+
 Result<std::vector<std::uint32_t>> ReadGltfIndices(const tinygltf::Model& gltf, int accessor,
                                                    const std::string& where) {
   PLEINAIR_ASSIGN_OR_RETURN(const std::vector<double> values, Components(gltf, accessor, 1, where));

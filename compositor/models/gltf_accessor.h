@@ -27,6 +27,10 @@ template <std::size_t N>
 Result<std::vector<std::array<float, N>>> ReadGltfFloats(const tinygltf::Model& gltf, int accessor,
                                                          const std::string& where);
 
+/// Reads colors with or without alpha, clamped to 0…1. Errors as above.
+Result<std::vector<std::array<float, 4>>> ReadGltfColors(const tinygltf::Model& gltf, int accessor,
+                                                         const std::string& where);
+
 /// Reads the elements of an accessor of unsigned integers. Errors as above.
 Result<std::vector<std::uint32_t>> ReadGltfIndices(const tinygltf::Model& gltf, int accessor,
                                                    const std::string& where);

@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
 
+#include "base/vector.h"
 #include "compositor/models/gltf_accessor.h"
 #include "compositor/models/gltf_error.h"
 #include "compositor/models/texture_decoder.h"
@@ -17,6 +20,15 @@ namespace {
 
 // Max. length of an extension's name in messages.
 constexpr std::size_t kMaxNameLength = 64;
+// Of a normal map: steeper bumps are clipped by the shader anyway.
+constexpr double kMaxBumpScale = 100.0;
+// Refractive index of a material without one (glTF 2.0, appendix B.2); that of diamond.
+constexpr double kDefaultIor = 1.5, kMaxIor = 2.42;
+// Both faces of a clear pane reflect 4 %.
+constexpr double kPaneTransmittance = 0.92;
+// Ten times the sun's disc.
+constexpr double kMaxLuminance_cd_m2 = 2e10;
+constexpr const char* kThirdSet = "a third set of texture coordinates";
 
 class MaterialReader {
  public:
@@ -24,14 +36,14 @@ class MaterialReader {
                  const std::filesystem::path& file, Model* model)
       : gltf_(gltf), encoded_(encoded), file_(file), where_(file.string()), model_(*model) {}
 
-  Result<std::vector<UvMap>> Read() {
+  Result<std::vector<MaterialUvs>> Read() {
     for (const tinygltf::Material& material : gltf_.materials) {
       PLEINAIR_RETURN_IF_ERROR(ReadMaterial(material));
     }
     model_.materials.push_back({});  // For primitives without one.
     model_.materials.back().coat.f0 = kDielectricF0;
     model_.materials.back().coat.base_share = 1.0F - kDielectricF0;
-    return std::move(uv_maps_);
+    return std::move(uvs_);
   }
 
  private:
@@ -78,7 +90,6 @@ class MaterialReader {
   Result<void> ReadMaterial(const tinygltf::Material& source) {
     Material material;
     material.name = source.name;
-    material.double_sided = source.doubleSided;
     material.coat.f0 = kDielectricF0;
     material.coat.base_share = 1.0F - kDielectricF0;
     material.alpha = source.alphaMode == "MASK"    ? Material::Alpha::kCutout
@@ -96,34 +107,186 @@ class MaterialReader {
     if (pbr.baseColorTexture.index >= 0) {
       PLEINAIR_ASSIGN_OR_RETURN(material.base_color_texture, Texture(pbr.baseColorTexture.index));
     }
-    UvMap uv_map = UvMapOf(pbr.baseColorTexture);
-    if (const auto& texture = pbr.metallicRoughnessTexture; texture.index >= 0) {
-      const UvMap of_coat = UvMapOf(texture);
-      if (material.base_color_texture < 0) uv_map = of_coat;
-      if (of_coat == uv_map) {
-        PLEINAIR_ASSIGN_OR_RETURN(material.metallic_roughness_texture,
-                                  Texture(texture.index, false));
+    MaterialUvs uvs{FirstMap(source), {}};
+    if (const int texture = pbr.metallicRoughnessTexture.index; texture >= 0) {
+      if (const auto coordinates = CoordinatesIn(&uvs, UvMapOf(pbr.metallicRoughnessTexture))) {
+        PLEINAIR_ASSIGN_OR_RETURN(material.metallic_roughness_texture, Texture(texture, false));
+        material.detail.metallic_roughness_coordinates = *coordinates;
       } else {
-        // Surfaces have only one set of texture coordinates.
-        PLEINAIR_RETURN_IF_ERROR(TakeMean(texture.index, &material));
+        PLEINAIR_RETURN_IF_ERROR(TakeMean(texture, &material));
       }
     }
-    uv_maps_.push_back(uv_map);
+    PLEINAIR_RETURN_IF_ERROR(ReadNormalMap(source, &uvs, &material));
+    PLEINAIR_RETURN_IF_ERROR(ReadEmission(source, &uvs, &material));
+    material.detail.unlit = source.extensions.contains("KHR_materials_unlit");
+    PLEINAIR_RETURN_IF_ERROR(ReadLayers(source, &material));
+    uvs_.push_back(uvs);
     NoteUnsupported(source, &material);
     model_.materials.push_back(std::move(material));
     return {};
   }
 
-  static void NoteUnsupported(const tinygltf::Material& source, Material* material) {
-    if (source.normalTexture.index >= 0) material->unsupported_features.insert("normal maps");
-    const auto& emission = source.emissiveFactor;
-    if (std::any_of(emission.begin(), emission.end(), [](double value) { return value > 0.0; })) {
-      material->unsupported_features.insert("emission");
+  /// A number of an extension; `otherwise` where it or the extension is missing.
+  static double NumberOf(const tinygltf::Material& source, const char* extension, const char* key,
+                         double otherwise) {
+    const auto found = source.extensions.find(extension);
+    if (found == source.extensions.end()) return otherwise;
+    const tinygltf::Value& value = found->second.Get(key);
+    return value.IsNumber() ? value.GetNumberAsDouble() : otherwise;
+  }
+
+  /// A color of an extension, as above.
+  static std::array<float, 3> ColorOf(const tinygltf::Material& source, const char* extension,
+                                      const char* key, const std::array<float, 3>& otherwise) {
+    const auto found = source.extensions.find(extension);
+    if (found == source.extensions.end()) return otherwise;
+    const tinygltf::Value& value = found->second.Get(key);
+    if (!value.IsArray() || value.ArrayLen() != 3) return otherwise;
+    std::array<float, 3> color{};
+    for (int c = 0; c < 3; ++c) {
+      if (value.Get(c).IsNumber()) {
+        color[static_cast<std::size_t>(c)] = Clamped(value.Get(c).GetNumberAsDouble());
+      }
     }
+    return color;
+  }
+
+  /// Mean of a channel of an extension's texture, 0…1; 1 where it is missing.
+  Result<float> MeanOf(const tinygltf::Material& source, const char* extension, const char* key,
+                       int channel) {
+    const auto found = source.extensions.find(extension);
+    if (found == source.extensions.end()) return 1.0F;
+    const tinygltf::Value& index = found->second.Get(key).Get("index");
+    if (!index.IsInt()) return 1.0F;
+    PLEINAIR_ASSIGN_OR_RETURN(const int image, PictureOf(index.GetNumberAsInt()));
+    PLEINAIR_ASSIGN_OR_RETURN(const Image<std::uint8_t> picture, Picture(image));
+    const int from = std::min(channel, picture.channels() - 1);
+    if (channel == 3 && picture.channels() < 4) return 1.0F;
+    double sum = 0.0;
+    for (int y = 0; y < picture.height(); ++y) {
+      for (int x = 0; x < picture.width(); ++x) sum += picture(x, y, from);
+    }
+    return static_cast<float>(sum / (255.0 * picture.width() * picture.height()));
+  }
+
+  /// KHR_materials_ior, _specular, _clearcoat, _sheen and _transmission. Textures are replaced by
+  /// their mean.
+  Result<void> ReadLayers(const tinygltf::Material& source, Material* material) {
+    MaterialLayers& layers = material->detail.layers;
+    // KHR_materials_ior: normal reflectance ((n − 1) / (n + 1))². An index of 0 means 1.
+    const double index = NumberOf(source, "KHR_materials_ior", "ior", kDefaultIor);
+    const double root = index > 1.0 ? (std::min(index, kMaxIor) - 1.0) / (std::min(index, kMaxIor) + 1.0)
+                                    : (index == 0.0 ? 1.0 : 0.0);
+    PLEINAIR_ASSIGN_OR_RETURN(const float specular,
+                              MeanOf(source, "KHR_materials_specular", "specularTexture", 3));
+    const double strength =
+        specular * Clamped(NumberOf(source, "KHR_materials_specular", "specularFactor", 1.0));
+    material->coat.f0 = index == kDefaultIor && strength == 1.0
+                            ? kDielectricF0
+                            : static_cast<float>(root * root * strength);
+    material->coat.base_share = 1.0F - material->coat.f0;
+    layers.coat_tint =
+        ColorOf(source, "KHR_materials_specular", "specularColorFactor", layers.coat_tint);
+    PLEINAIR_ASSIGN_OR_RETURN(const float coat,
+                              MeanOf(source, "KHR_materials_clearcoat", "clearcoatTexture", 0));
+    layers.clearcoat =
+        coat * Clamped(NumberOf(source, "KHR_materials_clearcoat", "clearcoatFactor", 0.0));
+    PLEINAIR_ASSIGN_OR_RETURN(
+        const float coat_roughness,
+        MeanOf(source, "KHR_materials_clearcoat", "clearcoatRoughnessTexture", 1));
+    layers.clearcoat_roughness =
+        coat_roughness *
+        Clamped(NumberOf(source, "KHR_materials_clearcoat", "clearcoatRoughnessFactor", 0.0));
+    if (layers.clearcoat == 0.0F) layers.clearcoat_roughness = 0.0F;
+    layers.sheen_color =
+        ColorOf(source, "KHR_materials_sheen", "sheenColorFactor", layers.sheen_color);
+    if (layers.sheen_color != std::array<float, 3>{}) {
+      layers.sheen_roughness =
+          Clamped(NumberOf(source, "KHR_materials_sheen", "sheenRoughnessFactor", 0.0));
+    }
+    return ReadTransmission(source, material);
+  }
+
+  /// A thin sheet hides what it does not transmit; it transmits its base color's luminance.
+  Result<void> ReadTransmission(const tinygltf::Material& source, Material* material) {
+    PLEINAIR_ASSIGN_OR_RETURN(
+        const float mean, MeanOf(source, "KHR_materials_transmission", "transmissionTexture", 0));
+    const double factor =
+        mean *
+        Clamped(NumberOf(source, "KHR_materials_transmission", "transmissionFactor", 0.0)) *
+        (1.0 - material->metallic);
+    if (factor <= 0.0) return {};
+    const auto& [r, g, b] = material->base_color;
+    const double hidden = 1.0 - factor * kPaneTransmittance * Luminance(LinearRgb{r, g, b});
+    if (material->alpha == Material::Alpha::kIgnored) material->opacity = 1.0F;
+    material->opacity *= static_cast<float>(hidden);
+    material->alpha = Material::Alpha::kBlended;
+    return {};
+  }
+
+  /// The map of the first texture that the material has.
+  static UvMap FirstMap(const tinygltf::Material& source) {
+    const auto& pbr = source.pbrMetallicRoughness;
+    if (pbr.baseColorTexture.index >= 0) return UvMapOf(pbr.baseColorTexture);
+    if (pbr.metallicRoughnessTexture.index >= 0) return UvMapOf(pbr.metallicRoughnessTexture);
+    if (source.normalTexture.index >= 0) return UvMapOf(source.normalTexture);
+    return UvMapOf(source.emissiveTexture);
+  }
+
+  Result<void> ReadNormalMap(const tinygltf::Material& source, MaterialUvs* uvs,
+                             Material* material) {
+    const tinygltf::NormalTextureInfo& texture = source.normalTexture;
+    if (texture.index < 0) return {};
+    const auto coordinates = CoordinatesIn(uvs, UvMapOf(texture));
+    if (!coordinates) {
+      material->unsupported_features.insert(kThirdSet);
+      return {};
+    }
+    NormalMap& map = material->detail.normal_map;
+    PLEINAIR_ASSIGN_OR_RETURN(map.texture, Texture(texture.index, false));
+    map.scale = static_cast<float>(std::clamp(texture.scale, -kMaxBumpScale, kMaxBumpScale));
+    map.coordinates = *coordinates;
+    return {};
+  }
+
+  /// KHR_materials_emissive_strength: factor times strength is the luminance in cd/m².
+  Result<void> ReadEmission(const tinygltf::Material& source, MaterialUvs* uvs,
+                            Material* material) {
+    Emission& emission = material->detail.emission;
+    double strength = 1.0;
+    if (const auto found = source.extensions.find("KHR_materials_emissive_strength");
+        found != source.extensions.end()) {
+      const tinygltf::Value& value = found->second.Get("emissiveStrength");
+      if (value.IsNumber()) strength = value.GetNumberAsDouble();
+    }
+    for (std::size_t c = 0; c < 3 && c < source.emissiveFactor.size(); ++c) {
+      const double luminance = strength * source.emissiveFactor[c];
+      if (luminance > 0.0) {  // Not NaN.
+        emission.luminance_cd_m2[c] = static_cast<float>(std::min(luminance, kMaxLuminance_cd_m2));
+      }
+    }
+    const tinygltf::TextureInfo& texture = source.emissiveTexture;
+    if (texture.index < 0 || emission.luminance_cd_m2 == std::array<float, 3>{}) return {};
+    const auto coordinates = CoordinatesIn(uvs, UvMapOf(texture));
+    if (!coordinates) {
+      material->unsupported_features.insert(kThirdSet);
+      emission = {};
+      return {};
+    }
+    PLEINAIR_ASSIGN_OR_RETURN(emission.texture, Texture(texture.index));
+    emission.coordinates = *coordinates;
+    return {};
+  }
+
+  static void NoteUnsupported(const tinygltf::Material& source, Material* material) {
+    static const std::set<std::string> kSupported = {
+        "KHR_materials_emissive_strength", "KHR_materials_unlit",   "KHR_materials_ior",
+        "KHR_materials_specular",          "KHR_materials_sheen",   "KHR_materials_clearcoat",
+        "KHR_materials_transmission"};
     for (const auto& [extension, value] : source.extensions) {
-      // It only scales the emission, which is already reported.
-      if (extension == "KHR_materials_emissive_strength") continue;
-      material->unsupported_features.insert(Shortened(extension));
+      if (!kSupported.contains(extension)) {
+        material->unsupported_features.insert(Shortened(extension));
+      }
     }
   }
 
@@ -170,14 +333,15 @@ class MaterialReader {
   Model& model_;
   std::map<std::pair<int, bool>, int> textures_;  ///< Model's texture by glTF image and use.
   std::map<int, std::array<float, 2>> means_;     ///< Mean roughness and metallic by glTF image.
-  std::vector<UvMap> uv_maps_;
+  std::vector<MaterialUvs> uvs_;
 };
 
 }  // namespace
 
-Result<std::vector<UvMap>> ReadGltfMaterials(const tinygltf::Model& gltf,
-                                             const EncodedGltfImages& encoded,
-                                             const std::filesystem::path& file, Model* model) {
+Result<std::vector<MaterialUvs>> ReadGltfMaterials(const tinygltf::Model& gltf,
+                                                   const EncodedGltfImages& encoded,
+                                                   const std::filesystem::path& file,
+                                                   Model* model) {
   return MaterialReader(gltf, encoded, file, model).Read();
 }
 

@@ -21,10 +21,11 @@ namespace pleinair::compositor {
 using EncodedGltfImages = std::map<int, std::vector<unsigned char>>;
 
 /// Adds a glTF file's materials with their textures to the model, followed by one material for
-/// primitives without any. Returns the texture coordinates of each material of the file. Errors:
+/// primitives without any. Returns the texture coordinates of each
+/// material of the file. Errors:
 /// textures out of range, missing, too large or unreadable.
-Result<std::vector<UvMap>> ReadGltfMaterials(const tinygltf::Model& gltf,
-                                             const EncodedGltfImages& encoded,
-                                             const std::filesystem::path& file, Model* model);
+Result<std::vector<MaterialUvs>> ReadGltfMaterials(const tinygltf::Model& gltf,
+                                                   const EncodedGltfImages& encoded,
+                                                   const std::filesystem::path& file, Model* model);
 
 }  // namespace pleinair::compositor

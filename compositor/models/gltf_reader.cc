@@ -59,7 +59,7 @@ class GltfReader {
                           "export the model without it");
       }
     }
-    PLEINAIR_ASSIGN_OR_RETURN(uv_maps_, ReadGltfMaterials(gltf_, encoded_, file_, &model_));
+    PLEINAIR_ASSIGN_OR_RETURN(uvs_, ReadGltfMaterials(gltf_, encoded_, file_, &model_));
     PLEINAIR_RETURN_IF_ERROR(ReadNodes());
     if (model_.meshes.empty()) return GltfError(where_, "its scene has no triangles");
     model_.written_by = gltf_.asset.generator.substr(0, kMaxNameLength);
@@ -165,7 +165,6 @@ class GltfReader {
     const auto position = primitive.attributes.find("POSITION");
     if (mode < TINYGLTF_MODE_TRIANGLES) model_.unsupported_features.insert(kPointsAndLines);
     if (mode < TINYGLTF_MODE_TRIANGLES || position == primitive.attributes.end()) return {};
-    if (primitive.attributes.contains("COLOR_0")) model_.unsupported_features.insert(kVertexColors);
     if (!primitive.targets.empty()) model_.unsupported_features.insert("morph targets");
     Mesh mesh;
     mesh.name = name;
@@ -186,24 +185,53 @@ class GltfReader {
         return GltfError(where_, "a mesh has more or fewer normals than positions");
       }
     }
-    const UvMap uv_map =
-        primitive.material >= 0 ? uv_maps_[static_cast<std::size_t>(primitive.material)] : UvMap{};
-    if (const auto uv = primitive.attributes.find("TEXCOORD_" + std::to_string(uv_map.set));
-        uv != primitive.attributes.end()) {
-      PLEINAIR_ASSIGN_OR_RETURN(mesh.uvs, ReadGltfFloats<2>(gltf_, uv->second, where_));
-      if (mesh.uvs.size() != mesh.positions.size()) {
-        return GltfError(where_, "a mesh has more or fewer texture coordinates than positions");
-      }
-      for (auto& uv_of_vertex : mesh.uvs) {
-        uv_of_vertex = uv_map(uv_of_vertex);
-        if (!IsWithinReach(uv_of_vertex)) {
-          return GltfError(where_, "KHR_texture_transform takes texture coordinates beyond 1e8");
-        }
+    const MaterialUvs uvs = primitive.material >= 0
+                                ? uvs_[static_cast<std::size_t>(primitive.material)]
+                                : MaterialUvs{};
+    PLEINAIR_ASSIGN_OR_RETURN(mesh.uvs, ReadUvs(primitive, uvs.first.set, mesh.positions.size()));
+    for (auto& uv_of_vertex : mesh.uvs) {
+      uv_of_vertex = uvs.first(uv_of_vertex);
+      if (!IsWithinReach(uv_of_vertex)) {
+        return GltfError(where_, "KHR_texture_transform takes texture coordinates beyond 1e8");
       }
     }
+    PLEINAIR_RETURN_IF_ERROR(ReadDetails(primitive, uvs, &mesh));
     PLEINAIR_RETURN_IF_ERROR(ReadTriangles(primitive, mode, &mesh));
     PLEINAIR_RETURN_IF_ERROR(Place(placement, &mesh));
     if (!mesh.indices.empty()) model_.meshes.push_back(std::move(mesh));
+    return {};
+  }
+
+  /// Reads one set of texture coordinates; empty if the primitive lacks it.
+  Result<std::vector<std::array<float, 2>>> ReadUvs(const tinygltf::Primitive& primitive, int set,
+                                                    std::size_t vertices) const {
+    const auto found = primitive.attributes.find("TEXCOORD_" + std::to_string(set));
+    if (found == primitive.attributes.end()) return std::vector<std::array<float, 2>>{};
+    PLEINAIR_ASSIGN_OR_RETURN(auto uvs, ReadGltfFloats<2>(gltf_, found->second, where_));
+    if (uvs.size() != vertices) {
+      return GltfError(where_, "a mesh has more or fewer texture coordinates than positions");
+    }
+    return uvs;
+  }
+
+  /// Reads colors of vertices and the second set of texture coordinates.
+  Result<void> ReadDetails(const tinygltf::Primitive& primitive, const MaterialUvs& uvs,
+                           Mesh* mesh) const {
+    const std::size_t vertices = mesh->positions.size();
+    if (const auto color = primitive.attributes.find("COLOR_0");
+        color != primitive.attributes.end()) {
+      PLEINAIR_ASSIGN_OR_RETURN(const auto colors, ReadGltfColors(gltf_, color->second, where_));
+      if (colors.size() != vertices) {
+        return GltfError(where_, "a mesh has more or fewer colours than positions");
+      }
+      mesh->details.resize(vertices);
+      for (std::size_t i = 0; i < vertices; ++i) mesh->details[i].color = colors[i];
+    }
+    if (!uvs.second_set) return {};
+    PLEINAIR_ASSIGN_OR_RETURN(const auto second, ReadUvs(primitive, *uvs.second_set, vertices));
+    if (second.empty()) return {};
+    mesh->details.resize(vertices);
+    for (std::size_t i = 0; i < vertices; ++i) mesh->details[i].uv = second[i];
     return {};
   }
 
@@ -282,7 +310,7 @@ class GltfReader {
   tinygltf::Model gltf_;
   EncodedGltfImages encoded_;
   Model model_;
-  std::vector<UvMap> uv_maps_;  ///< By material.
+  std::vector<MaterialUvs> uvs_;  ///< By material.
   bool has_vertex_ = false;
   std::size_t vertex_count_ = 0;
   std::size_t triangle_count_ = 0;

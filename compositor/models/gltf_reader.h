@@ -17,12 +17,14 @@ bool LooksLikeGltf(std::string_view content);
 /// (x, y, z) becomes (x, −z, y). Lengths remain in metres.
 ///
 /// Supported are base color, metallic and roughness (factors and textures), alphaMode, alphaCutoff,
-/// doubleSided and KHR_texture_transform. Textures share one set of texture coordinates. A second
-/// texture with another set is replaced by its mean.
+/// normal maps, emission with its strength, vertex colors, unlit materials, KHR_texture_transform,
+/// and KHR_materials_ior, _specular, _clearcoat, _sheen and _transmission, whose textures are
+/// replaced by their mean. The textures of a material may use two sets of texture coordinates. With
+/// a third, metallic and roughness are replaced by their mean.
 ///
 /// Model::unsupported_features and Material::unsupported_features report unsupported content. It
-/// comprises vertex colors, normal maps, emission, other material extensions, skins, morph targets,
-/// animations, points and lines. Cameras and lights are ignored without a report.
+/// comprises other material extensions, skins, morph targets, animations, points and lines. Cameras
+/// and lights are ignored without a report.
 ///
 /// Errors: cut short, references out of range, nodes that contain themselves, values that are not
 /// finite, textures missing or too large, an unknown required extension.

@@ -3,10 +3,14 @@
 // Internal: between the .cc files of this module; not installed.
 
 #include <array>
+#include <optional>
+
+#include "compositor/models/model.h"
 
 namespace tinygltf {
 struct TextureInfo;
-}
+struct NormalTextureInfo;
+}  // namespace tinygltf
 
 namespace pleinair::compositor {
 
@@ -22,8 +26,19 @@ struct UvMap {
   std::array<float, 2> operator()(const std::array<float, 2>& uv) const;
 };
 
+/// Texture coordinates of a mesh whose material has several textures.
+struct MaterialUvs {
+  UvMap first;                    ///< Of Mesh::uvs: that of the base color, if it has a texture.
+  std::optional<int> second_set;  ///< Set in VertexDetail::uv; unset: none.
+};
+
+/// Expresses a texture's map by the coordinates of a mesh. Takes a second set if it is still free.
+/// Returns nothing if a third set would be needed.
+std::optional<TextureCoordinates> CoordinatesIn(MaterialUvs* uvs, const UvMap& map);
+
 /// The map of a material's texture; without the extension, the texture's own coordinates.
 UvMap UvMapOf(const tinygltf::TextureInfo& texture);
+UvMap UvMapOf(const tinygltf::NormalTextureInfo& texture);
 
 /// Returns whether coordinates are numbers, and small enough that rounding loses no texels.
 bool IsWithinReach(const std::array<float, 2>& uv);

@@ -58,6 +58,7 @@ void Flatten(Mesh* mesh, const Predicate& is_flat) {
     out.positions.push_back(mesh->positions[vertex]);
     out.normals.push_back(normal);
     if (!mesh->uvs.empty()) out.uvs.push_back(mesh->uvs[vertex]);
+    if (!mesh->details.empty()) out.details.push_back(mesh->details[vertex]);
     return static_cast<std::uint32_t>(out.positions.size() - 1);
   };
   for (std::size_t i = 0; i + 2 < mesh->indices.size(); i += 3) {

@@ -26,6 +26,47 @@ struct DielectricCoat {
   float base_share = 1.0F;
 };
 
+/// Coordinates of a texture from those of a mesh: matrix (u, v) + offset.
+struct TextureCoordinates {
+  bool second_set = false;                  ///< From VertexDetail::uv, else from Mesh::uvs.
+  std::array<float, 4> matrix{1, 0, 0, 1};  ///< Row-major.
+  std::array<float, 2> offset{};
+};
+
+/// Bumps of a surface (glTF 2.0, section 3.9.3): red to the right in the texture, green upwards,
+/// blue outwards.
+struct NormalMap {
+  int texture = -1;    ///< Index into Model::textures, -1 for none; linear.
+  float scale = 1.0F;  ///< Of red and green.
+  TextureCoordinates coordinates;
+};
+
+/// Light that a surface emits.
+struct Emission {
+  std::array<float, 3> luminance_cd_m2{};  ///< Linear Rec.709.
+  int texture = -1;                        ///< Index into Model::textures, -1 for none; sRGB.
+  TextureCoordinates coordinates;
+};
+
+/// Layers over a material's base, and the tint of its coat (KHR_materials_specular, _clearcoat,
+/// _sheen).
+struct MaterialLayers {
+  std::array<float, 3> coat_tint{1, 1, 1};  ///< Multiplies DielectricCoat::f0.
+  float clearcoat = 0.0F, clearcoat_roughness = 0.0F;
+  std::array<float, 3> sheen_color{};
+  float sheen_roughness = 0.0F;
+  bool operator==(const MaterialLayers&) const = default;
+};
+
+/// The less common properties of a material.
+struct MaterialDetail {
+  NormalMap normal_map;
+  Emission emission;
+  TextureCoordinates metallic_roughness_coordinates;
+  MaterialLayers layers;
+  bool unlit = false;  ///< Shown in its own color, whatever the light (KHR_materials_unlit).
+};
+
 /// A surface material, metallic–roughness; colors linear Rec.709.
 struct Material {
   /// Meaning of the alpha of base color and texture, as in glTF: none; a hole below `alpha_cutoff`;
@@ -40,10 +81,10 @@ struct Material {
   float metallic = 0.0F;
   float roughness = 1.0F;
   DielectricCoat coat;
-  bool double_sided = false;
   int base_color_texture = -1;  ///< Index into Model::textures, -1 for none.
   /// Index as above; green scales roughness, blue scales metallic, both linear.
   int metallic_roughness_texture = -1;
+  MaterialDetail detail;
   /// Unsupported features of the file's material, as user messages: "normal maps".
   std::set<std::string> unsupported_features;
 };
@@ -51,6 +92,16 @@ struct Material {
 /// A surface with holes has two meshes in a model. The render-only mesh is whole, because alpha
 /// draws the holes. The shadow-only mesh has the holes cut out (compositor/models/alpha_cutout.h).
 enum class MeshRole { kAll, kRenderOnly, kShadowOnly };
+
+/// Further attributes of a vertex.
+struct VertexDetail {
+  std::array<float, 2> uv{};               ///< Second set of texture coordinates.
+  std::array<float, 4> color{1, 1, 1, 1};  ///< Multiplies the base color and its alpha.
+  bool operator==(const VertexDetail&) const = default;
+};
+
+/// Half way between two vertices.
+VertexDetail Middle(const VertexDetail& a, const VertexDetail& b);
 
 /// Three corners per triangle. Materials need not share vertices.
 struct Mesh {
@@ -60,6 +111,7 @@ struct Mesh {
   std::vector<std::array<float, 3>> positions;  ///< Metres, model coordinates.
   std::vector<std::array<float, 3>> normals;    ///< Unit, one per position.
   std::vector<std::array<float, 2>> uvs;        ///< Empty, or one per position; v down.
+  std::vector<VertexDetail> details;            ///< Empty, or one per position.
   std::vector<std::uint32_t> indices;  ///< Three per triangle, counter-clockwise from outside.
 };
 
@@ -83,7 +135,6 @@ struct Model {
 };
 
 /// Values of `unsupported_features`.
-inline constexpr const char* kVertexColors = "colours of vertices";
 inline constexpr const char* kPointsAndLines = "points and lines";
 
 /// All unsupported features of a model and of its used materials, as ordered user messages.

@@ -6,14 +6,24 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "compositor/models/obj_lines.h"
+#include "compositor/models/texture_conversion.h"
 
 namespace pleinair::compositor {
 namespace {
 
 constexpr std::size_t kMaxMaterials = 100'000;
+// Roughness of sheen, which MTL does not state.
+constexpr float kClothRoughness = 0.3F;
+
+/// A picture named in a material library.
+struct NamedPicture {
+  std::string name;
+  float bump = 1.0F;  ///< Option -bm.
+};
 
 /// The statements of one material; Finish() turns them into a Material.
 struct Draft {
@@ -21,7 +31,8 @@ struct Draft {
   std::optional<std::array<float, 3>> specular;
   std::optional<float> exponent, roughness;
   int illumination = 2;
-  bool has_color = false;
+  bool has_color = false, has_emission = false, has_metallic = false;
+  std::optional<NamedPicture> bump, normal, roughness_picture, metallic_picture;
 };
 
 class MtlParser {
@@ -34,7 +45,7 @@ class MtlParser {
     while (lines_.Next()) {
       const std::string_view keyword = lines_.Word();
       if (keyword == "newmtl") {
-        Finish();
+        PLEINAIR_RETURN_IF_ERROR(Finish());
         if (model_->materials.size() >= kMaxMaterials) return Fail("has too many materials");
         draft_.emplace();
         draft_->material.name = std::string(lines_.Rest());
@@ -42,8 +53,7 @@ class MtlParser {
         PLEINAIR_RETURN_IF_ERROR(Statement(keyword));
       }
     }
-    Finish();
-    return {};
+    return Finish();
   }
 
  private:
@@ -90,6 +100,21 @@ class MtlParser {
     } else if (keyword == "Pm") {
       PLEINAIR_ASSIGN_OR_RETURN(const float metallic, Number());
       material.metallic = std::clamp(metallic, 0.0F, 1.0F);
+      draft_->has_metallic = true;
+    } else if (keyword == "Pc" || keyword == "Pcr") {
+      PLEINAIR_ASSIGN_OR_RETURN(const float value, Number());
+      MaterialLayers& layers = material.detail.layers;
+      (keyword == "Pc" ? layers.clearcoat : layers.clearcoat_roughness) =
+          std::clamp(value, 0.0F, 1.0F);
+    } else if (keyword == "Ps") {
+      PLEINAIR_ASSIGN_OR_RETURN(auto color, Color());
+      for (float& value : color) value = std::clamp(value, 0.0F, 1.0F);
+      material.detail.layers.sheen_color = color;
+    } else if (keyword == "Ke") {
+      PLEINAIR_ASSIGN_OR_RETURN(auto emission, Color());
+      for (float& value : emission) value = std::max(value, 0.0F);
+      material.detail.emission.luminance_cd_m2 = emission;
+      draft_->has_emission = true;
     } else if (keyword == "d" || keyword == "Tr") {
       if (lines_.Rest().starts_with("-halo")) lines_.Word();
       PLEINAIR_ASSIGN_OR_RETURN(const float value, Number());
@@ -103,8 +128,28 @@ class MtlParser {
     } else if (keyword == "illum") {
       PLEINAIR_ASSIGN_OR_RETURN(const float illumination, Number());
       draft_->illumination = static_cast<int>(illumination);
-    } else if (keyword == "map_Kd") {
-      PLEINAIR_ASSIGN_OR_RETURN(material.base_color_texture, Texture());
+    } else if (keyword.starts_with("map_") || keyword == "bump" || keyword == "norm") {
+      return PictureStatement(keyword);
+    } else {
+      NoteUnsupported(keyword);
+    }
+    return {};
+  }
+
+  Result<void> PictureStatement(std::string_view keyword) {
+    if (keyword == "map_Kd" || keyword == "map_Ke") {
+      PLEINAIR_ASSIGN_OR_RETURN(const NamedPicture picture, Picture());
+      PLEINAIR_ASSIGN_OR_RETURN(const int texture, ColorTexture(picture.name));
+      (keyword == "map_Kd" ? draft_->material.base_color_texture
+                           : draft_->material.detail.emission.texture) = texture;
+    } else if (keyword == "bump" || keyword == "map_bump" || keyword == "map_Bump") {
+      PLEINAIR_ASSIGN_OR_RETURN(draft_->bump, Picture());
+    } else if (keyword == "norm" || keyword == "map_Kn") {
+      PLEINAIR_ASSIGN_OR_RETURN(draft_->normal, Picture());
+    } else if (keyword == "map_Pr") {
+      PLEINAIR_ASSIGN_OR_RETURN(draft_->roughness_picture, Picture());
+    } else if (keyword == "map_Pm") {
+      PLEINAIR_ASSIGN_OR_RETURN(draft_->metallic_picture, Picture());
     } else {
       NoteUnsupported(keyword);
     }
@@ -113,35 +158,21 @@ class MtlParser {
 
   void NoteUnsupported(std::string_view keyword) {
     static const std::map<std::string_view, const char*> kNames = {
-        {"Ke", "emission"},
-        {"map_Ke", "emission"},
-        {"bump", "normal maps"},
-        {"map_bump", "normal maps"},
-        {"map_Bump", "normal maps"},
-        {"norm", "normal maps"},
         {"disp", "displacement"},
         {"refl", "pictures of surroundings"},
         {"map_refl", "pictures of surroundings"},
         {"decal", "decals"},
-        {"Pc", "clear coats"},
-        {"Ps", "sheen"},
         {"map_d", "pictures of transparency (map_d)"},
-        {"map_Ks", "pictures of gloss and metal"},
-        {"map_Ns", "pictures of gloss and metal"},
-        {"map_Pr", "pictures of gloss and metal"},
-        {"map_Pm", "pictures of gloss and metal"}};
+        {"map_Ks", "pictures of gloss (map_Ks, map_Ns)"},
+        {"map_Ns", "pictures of gloss (map_Ks, map_Ns)"}};
     const auto found = kNames.find(keyword);
     if (found == kNames.end()) return;
-    if (keyword == "Ke" || keyword == "Pc" || keyword == "Ps") {
-      // Most programs write a zero here.
-      const auto color = Color();
-      if (!color || *color == std::array<float, 3>{}) return;
-    }
     draft_->material.unsupported_features.insert(found->second);
   }
 
   /// The file name is last, after options such as "-s 1 1 1"; it may contain blanks.
-  Result<int> Texture() {
+  Result<NamedPicture> Picture() {
+    NamedPicture picture;
     const std::map<std::string_view, int> arguments = {
         {"-blendu", 1}, {"-blendv", 1}, {"-boost", 1},   {"-mm", 2},   {"-texres", 1},
         {"-clamp", 1},  {"-bm", 1},     {"-imfchan", 1}, {"-type", 1}, {"-cc", 1}};
@@ -160,24 +191,83 @@ class MtlParser {
       if (found == arguments.end()) {
         return Fail("unknown texture option " + Quoted(option));
       }
+      if (option == "-bm") {
+        PLEINAIR_ASSIGN_OR_RETURN(picture.bump, Number());
+        continue;
+      }
       for (int i = 0; i < found->second; ++i) lines_.Word();
     }
-    std::string name(lines_.Rest());
-    if (name.empty()) return Fail("map_Kd names no file");
-    std::replace(name.begin(), name.end(), '\\', '/');
-    if (const auto known = textures_.find(name); known != textures_.end()) return known->second;
-    const std::filesystem::path path = file_.parent_path() / name;
-    auto texture = companions_.read_texture(path);
-    if (!texture) return tl::make_unexpected(std::move(texture).error());
+    picture.name = lines_.Rest();
+    if (picture.name.empty()) return Fail("a picture's statement names no file");
+    std::replace(picture.name.begin(), picture.name.end(), '\\', '/');
+    return picture;
+  }
+
+  Result<Image<std::uint8_t>> Read(const std::string& name) const {
+    return companions_.read_texture(file_.parent_path() / name);
+  }
+
+  /// Index of a picture among the model's textures, under a key of its name and use.
+  template <typename Make>
+  Result<int> Texture(const std::string& key, const Make& make) {
+    if (const auto known = textures_.find(key); known != textures_.end()) return known->second;
+    PLEINAIR_ASSIGN_OR_RETURN(Image<std::uint8_t> image, make());
     const int index = static_cast<int>(model_->textures.size());
-    model_->textures.push_back(*std::move(texture));
-    textures_.emplace(std::move(name), index);
+    model_->textures.push_back(std::move(image));
+    textures_.emplace(key, index);
     return index;
   }
 
-  void Finish() {
-    if (!draft_) return;
+  Result<int> ColorTexture(const std::string& name) {
+    return Texture("color " + name, [&] { return Read(name); });
+  }
+
+  /// `norm` is a normal map. `bump` is one too if it looks like one, as most programs write it.
+  Result<void> FinishBumps(NormalMap* map) {
+    const std::optional<NamedPicture>& picture = draft_->normal ? draft_->normal : draft_->bump;
+    if (!picture) return {};
+    const bool is_normal_map = draft_->normal.has_value();
+    const std::string key =
+        (is_normal_map ? "normal " : "bump " + std::to_string(picture->bump) + " ") + picture->name;
+    const auto make = [&]() -> Result<Image<std::uint8_t>> {
+      PLEINAIR_ASSIGN_OR_RETURN(Image<std::uint8_t> image, Read(picture->name));
+      if (is_normal_map || LooksLikeNormalMap(image)) return image;
+      return NormalMapFromHeight(image, picture->bump);
+    };
+    PLEINAIR_ASSIGN_OR_RETURN(map->texture, Texture(key, make));
+    return {};
+  }
+
+  Result<void> FinishMetallicRoughness(Material* material) {
+    const auto& [roughness, metallic] =
+        std::tie(draft_->roughness_picture, draft_->metallic_picture);
+    if (!roughness && !metallic) return {};
+    const std::string key = "roughness " + (roughness ? roughness->name : "") + "\nmetal " +
+                            (metallic ? metallic->name : "");
+    const auto make = [&]() -> Result<Image<std::uint8_t>> {
+      Image<std::uint8_t> green, blue;
+      if (roughness) {
+        PLEINAIR_ASSIGN_OR_RETURN(green, Read(roughness->name));
+      }
+      if (metallic) {
+        PLEINAIR_ASSIGN_OR_RETURN(blue, Read(metallic->name));
+      }
+      return CombinedRoughnessAndMetal(green, blue);
+    };
+    PLEINAIR_ASSIGN_OR_RETURN(material->metallic_roughness_texture, Texture(key, make));
+    if (roughness && !draft_->roughness) draft_->roughness = 1.0F;
+    if (metallic && !draft_->has_metallic) material->metallic = 1.0F;
+    return {};
+  }
+
+  Result<void> Finish() {
+    if (!draft_) return {};
     Material& material = draft_->material;
+    PLEINAIR_RETURN_IF_ERROR(FinishBumps(&material.detail.normal_map));
+    PLEINAIR_RETURN_IF_ERROR(FinishMetallicRoughness(&material));
+    if (material.detail.emission.texture >= 0 && !draft_->has_emission) {
+      material.detail.emission.luminance_cd_m2 = {1.0F, 1.0F, 1.0F};
+    }
     const bool textured = material.base_color_texture >= 0;
     if (textured && (!draft_->has_color || material.base_color == std::array<float, 3>{})) {
       material.base_color = {1.0F, 1.0F, 1.0F};
@@ -199,9 +289,13 @@ class MtlParser {
       const float exponent = std::max(0.0F, *draft_->exponent);
       material.roughness = std::pow(2.0F / (exponent + 2.0F), 0.25F);
     }
+    MaterialLayers& layers = material.detail.layers;
+    if (layers.clearcoat == 0.0F) layers.clearcoat_roughness = 0.0F;
+    if (layers.sheen_color != std::array<float, 3>{}) layers.sheen_roughness = kClothRoughness;
     if (draft_->roughness) material.roughness = std::clamp(*draft_->roughness, 0.0F, 1.0F);
     model_->materials.push_back(std::move(material));
     draft_.reset();
+    return {};
   }
 
   ObjLines lines_;
@@ -209,7 +303,7 @@ class MtlParser {
   const ObjCompanions& companions_;
   Model* model_;
   std::optional<Draft> draft_;
-  std::map<std::string, int> textures_;
+  std::map<std::string, int> textures_;  ///< By name and use.
 };
 
 }  // namespace

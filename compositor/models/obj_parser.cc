@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/srgb.h"
 #include "compositor/models/mesh_triangulation.h"
 #include "compositor/models/model_limits.h"
 #include "compositor/models/obj_lines.h"
@@ -47,6 +48,7 @@ struct VertexKeyHash {
 /// The file's vertex lists, to which its faces refer.
 struct ListedVertices {
   std::vector<std::array<float, 3>> positions, normals;
+  std::vector<std::array<float, 3>> colors;  ///< Linear; shorter where the last have none.
   std::vector<std::array<float, 2>> uvs;
 };
 
@@ -81,9 +83,9 @@ class ObjParser {
     for (Mesh& mesh : model_.meshes) {
       // Drops texture coordinates that no face of the mesh uses.
       if (!built_.has_uvs[static_cast<std::size_t>(&mesh - model_.meshes.data())]) mesh.uvs.clear();
+      if (!mesh.details.empty()) mesh.details.resize(mesh.positions.size());
     }
     model_.written_by = lines_.first_comment().substr(0, kMaxNameLength);
-    if (has_colors_) model_.unsupported_features.insert(kVertexColors);
     if (has_lines_) model_.unsupported_features.insert(kPointsAndLines);
     return std::move(model_);
   }
@@ -97,10 +99,7 @@ class ObjParser {
 
   Result<void> Statement(std::string_view keyword) {
     if (keyword == "v") {
-      PLEINAIR_RETURN_IF_ERROR(Position());
-      // After the position may come one weight; a color has three numbers.
-      has_colors_ |= !lines_.Word().empty() && !lines_.Word().empty();
-      return {};
+      return Position();
     }
     if (keyword == "vn") return Vector<3>(&listed_.normals, 3);
     if (keyword == "vt") return Vector<2>(&listed_.uvs, 1);
@@ -140,6 +139,22 @@ class ObjParser {
     }
     listed_.positions.push_back({static_cast<float>(relative[0]), static_cast<float>(relative[1]),
                                  static_cast<float>(relative[2])});
+    return VertexColor();
+  }
+
+  /// Reads the color after a position, sRGB from 0 to 1. A single number there is a weight.
+  Result<void> VertexColor() {
+    if (lines_.Rest().empty()) return {};
+    const std::array<std::string_view, 3> words{lines_.Word(), lines_.Word(), lines_.Word()};
+    if (words[2].empty()) return {};
+    std::array<float, 3> color{};
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::optional<float> value = ParseObjNumber(words[c]);
+      if (!value) return Fail(Quoted(words[c]) + " is not the colour of a vertex");
+      color[c] = static_cast<float>(LinearFromSrgb(std::clamp(*value, 0.0F, 1.0F)));
+    }
+    listed_.colors.resize(listed_.positions.size(), {1.0F, 1.0F, 1.0F});
+    listed_.colors.back() = color;
     return {};
   }
 
@@ -246,6 +261,12 @@ class ObjParser {
       built_.has_uvs[mesh_index] = true;
     }
     mesh.uvs.push_back(uv);
+    if (const auto position = static_cast<std::size_t>(corner.position);
+        position < listed_.colors.size()) {
+      const auto& [r, g, b] = listed_.colors[position];
+      mesh.details.resize(mesh.positions.size());
+      mesh.details.back().color = {r, g, b, 1.0F};
+    }
     return found->second;
   }
 
@@ -311,7 +332,7 @@ class ObjParser {
   const std::filesystem::path& file_;
   const ObjCompanions& companions_;
   Model model_;
-  bool has_colors_ = false, has_lines_ = false;
+  bool has_lines_ = false;
   ListedVertices listed_;
   BuiltMeshes built_;
   std::map<std::string, int> materials_;

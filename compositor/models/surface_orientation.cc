@@ -199,9 +199,13 @@ class SurfaceBuilder {
     const std::array<float, 3> position = ToFloats(vertices_.positions[corner]);
     const bool has_uv = !mesh_.uvs.empty();
     const std::array<float, 2> uv = has_uv ? mesh_.uvs[corner] : std::array<float, 2>{};
-    const std::uint32_t id = welder_.Insert(
-        {position[0], position[1], position[2], normal[0], normal[1], normal[2], uv[0], uv[1]});
+    const std::array<float, 8> key{position[0], position[1], position[2], normal[0],
+                                   normal[1],   normal[2],   uv[0],       uv[1]};
+    const bool has_detail = !mesh_.details.empty();
+    const std::uint32_t id =
+        has_detail ? InsertDetailed(key, mesh_.details[corner]) : welder_.Insert(key);
     if (id == surface.positions.size()) {
+      if (has_detail) surface.details.push_back(mesh_.details[corner]);
       surface.positions.push_back(position);
       surface.normals.push_back(normal);
       if (has_uv) surface.uvs.push_back(uv);
@@ -209,9 +213,17 @@ class SurfaceBuilder {
     return id;
   }
 
+  std::uint32_t InsertDetailed(const std::array<float, 8>& key, const VertexDetail& detail) {
+    std::array<float, 14> longer;
+    const auto end = std::ranges::copy(key, longer.begin()).out;
+    std::ranges::copy(detail.color, std::ranges::copy(detail.uv, end).out);
+    return detailed_welder_.Insert(longer);
+  }
+
   const Mesh& mesh_;
   const PlacedVertices& vertices_;
   Welder<8> welder_;
+  Welder<14> detailed_welder_;  // For meshes with vertex details, in place of the other.
 };
 
 /// Collects the triangles of the render-only meshes, or of all others.

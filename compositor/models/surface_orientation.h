@@ -22,6 +22,7 @@ struct SurfaceMesh {
   std::vector<std::array<float, 3>> positions;
   std::vector<std::array<float, 3>> normals;
   std::vector<std::array<float, 2>> uvs;  ///< Empty, or one per position.
+  std::vector<VertexDetail> details;      ///< Empty, or one per position.
   /// From the flat triangles to the curved surface that the normals describe, at vertices that
   /// subdivision adds (compositor/light/edge_splitting.h). Empty, or one per position.
   std::vector<std::array<float, 3>> lifts;

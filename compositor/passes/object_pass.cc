@@ -2,12 +2,19 @@
 
 #include <epoxy/gl.h>
 
+#include <string>
+#include <vector>
+
 #include "compositor/passes/shadow_ratio_pass.h"
 
 namespace pleinair::compositor {
 
-Result<ObjectPass> ObjectPass::Create() {
+Result<ObjectPass> ObjectPass::Create(bool detailed) {
   ObjectPass pass;
+  const auto with_details = [&](std::vector<std::string> defines) {
+    if (detailed) defines.emplace_back("DETAILED");
+    return defines;
+  };
   PLEINAIR_ASSIGN_OR_RETURN(
       pass.id_program_, gl::GlProgram::Create({.vertex = "compositor/shaders/scene_surface.vert",
                                                .fragment = "compositor/shaders/triangle_id.frag",
@@ -16,12 +23,12 @@ Result<ObjectPass> ObjectPass::Create() {
       pass.textured_id_program_,
       gl::GlProgram::Create({.vertex = "compositor/shaders/scene_surface.vert",
                              .fragment = "compositor/shaders/triangle_id.frag",
-                             .defines = {"OBJECT", "TEXTURED"}}));
+                             .defines = with_details({"OBJECT", "TEXTURED"})}));
   PLEINAIR_ASSIGN_OR_RETURN(
       pass.alpha_id_program_,
       gl::GlProgram::Create({.vertex = "compositor/shaders/scene_surface.vert",
                              .fragment = "compositor/shaders/triangle_id.frag",
-                             .defines = {"OBJECT", "TEXTURED", "ALPHA"}}));
+                             .defines = with_details({"OBJECT", "TEXTURED", "ALPHA"})}));
   PLEINAIR_ASSIGN_OR_RETURN(
       pass.sort_program_,
       gl::GlProgram::Create({.vertex = "compositor/shaders/screen_triangle.vert",
@@ -68,6 +75,10 @@ void ObjectPass::Draw(const RenderTargets& targets, const SceneSurfaces& surface
   targets.seen().Bind(0);
   environment.Bind(3);
   targets.texels().Bind(4);
+  if (surfaces.materials().HasDetails()) {
+    targets.gradients().Bind(16);
+    targets.emissions().Bind(17);
+  }
   // Same values as KindOf() in shaders/visibility_buffer_layout.glsl for triangles of objects.
   for (int kind = 0; kind < 2; ++kind) {
     const gl::GlProgram& program = kind == 0 ? programs.objects : programs.objects_in_own_shade;

@@ -18,8 +18,8 @@ namespace pleinair::compositor {
 class ObjectPass {
  public:
   ObjectPass() = default;
-  /// Errors as gl::GlProgram::Create.
-  static Result<ObjectPass> Create();
+  /// `detailed`: SceneMaterials::HasDetails(). Errors as gl::GlProgram::Create.
+  static Result<ObjectPass> Create(bool detailed);
 
   /// Draws the objects' triangle numbers into the samples. The real surfaces' numbers and depth of
   /// ShadowRatioPass::DrawSurfaces() must be in place. Binds textures to unit 0.
@@ -28,8 +28,8 @@ class ObjectPass {
 
   /// Shades the surfaces of DrawSurfaces() into targets.objects(). `within` bounds the objects in
   /// the image. Requires bound shadow maps, the sun transmittance map at unit 5, GL_DEPTH_TEST
-  /// enabled and GL_CULL_FACE disabled. Binds its own textures to units 0 to 4, 6 and 7. Afterwards
-  /// depth writes are on, depth tests use GL_LESS, and the scissor test is off.
+  /// enabled and GL_CULL_FACE disabled. Binds its own textures to units 0 to 4, 6, 7, 16 and 17.
+  /// Afterwards depth writes are on, depth tests use GL_LESS, and the scissor test is off.
   void Draw(const RenderTargets& targets, const SceneSurfaces& surfaces,
             const SurfacePrograms& programs, const FrameUniforms& frame,
             const gl::GlTexture& environment, const PixelRect& within) const;

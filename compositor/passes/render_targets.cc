@@ -21,7 +21,7 @@ int RenderTargets::SamplesGiven() {
   return samples;
 }
 
-Result<RenderTargets> RenderTargets::Create(int width, int height) {
+Result<RenderTargets> RenderTargets::Create(int width, int height, bool detailed) {
   const int samples = SamplesGiven();
   RenderTargets targets;
   const auto create_samples = [&](GLenum format) {
@@ -41,10 +41,16 @@ Result<RenderTargets> RenderTargets::Create(int width, int height) {
   PLEINAIR_ASSIGN_OR_RETURN(
       targets.framebuffers_.ids,
       gl::GlFramebuffer::Create({{{&targets.samples_.ids}}, {&targets.samples_.depth}}));
-  PLEINAIR_ASSIGN_OR_RETURN(
-      targets.framebuffers_.ids_and_texels,
-      gl::GlFramebuffer::Create(
-          {{{&targets.samples_.ids}, {&targets.samples_.texels}}, {&targets.samples_.depth}}));
+  gl::FramebufferAttachments with_texels{{{&targets.samples_.ids}, {&targets.samples_.texels}},
+                                         {&targets.samples_.depth}};
+  if (detailed) {
+    for (gl::GlTexture* texels : {&targets.samples_.gradients, &targets.samples_.emissions}) {
+      PLEINAIR_ASSIGN_OR_RETURN(*texels, create_samples(kSampledFormats[1]));
+      with_texels.colors.push_back({texels});
+    }
+  }
+  PLEINAIR_ASSIGN_OR_RETURN(targets.framebuffers_.ids_and_texels,
+                            gl::GlFramebuffer::Create(with_texels));
   PLEINAIR_ASSIGN_OR_RETURN(targets.framebuffers_.sort,
                             gl::GlFramebuffer::Create({{{&targets.seen_}}, {&targets.kinds_}}));
   PLEINAIR_ASSIGN_OR_RETURN(

@@ -11,11 +11,13 @@ namespace pleinair::compositor {
 class RenderTargets {
  public:
   /// Errors (system): a size or format that the renderer does not support.
-  static Result<RenderTargets> Create(int width, int height);
+  /// `detailed`: also gradients() and emissions(), drawn with the texels.
+  static Result<RenderTargets> Create(int width, int height, bool detailed);
 
   /// Directs drawing to the triangle numbers, one per sample, and their depth; cleared to 0.
   void BeginSurfaces() const;
-  /// Directs drawing to the same targets. If `textured`, also to the base color texels (color 1).
+  /// Directs drawing to the same targets. If `textured`, also to the base color texels (color 1),
+  /// and if detailed, to gradients() and emissions() (colors 2 and 3).
   void BeginObjectIds(bool textured) const;
   /// Directs drawing to the classification of the triangle numbers, once per pixel, and its depth.
   void BeginSorting() const;
@@ -41,6 +43,9 @@ class RenderTargets {
   int samples() const { return samples_.ids.samples(); }
   const gl::GlTexture& ids() const { return samples_.ids; }
   const gl::GlTexture& texels() const { return samples_.texels; }
+  /// Bumps of the surface (shaders/surface_gradient.glsl) and texels of its emission, per sample.
+  const gl::GlTexture& gradients() const { return samples_.gradients; }
+  const gl::GlTexture& emissions() const { return samples_.emissions; }
   const gl::GlTexture& seen() const { return seen_; }
   const gl::GlTexture& ratio() const { return picture_.ratio; }
   const gl::GlTexture& objects() const { return picture_.objects; }
@@ -48,7 +53,7 @@ class RenderTargets {
  private:
   /// Several per pixel, drawn by geometry.
   struct Samples {
-    gl::GlTexture ids, texels, depth;
+    gl::GlTexture ids, texels, gradients, emissions, depth;
   };
   /// One per pixel.
   struct VirtualPicture {

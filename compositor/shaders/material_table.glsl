@@ -26,6 +26,27 @@ MaterialRecord RecordOf(int surface) {
                        texelFetch(u_surfaces, at + ivec2(4, 0), 0));
 }
 
+#ifdef DETAILED
+struct DetailRecord {
+  vec3 emitted_cd_m2;
+  float unlit;  // 1 for unlit surfaces.
+  vec3 coat_tint;
+  float clearcoat, clearcoat_roughness;
+  vec3 sheen_color;
+  float sheen_roughness;
+};
+
+DetailRecord DetailOf(int surface) {
+  ivec2 at = TexelOfSurface(surface);
+  vec4 emission = texelFetch(u_surfaces, at + ivec2(5, 0), 0);
+  vec4 coat = texelFetch(u_surfaces, at + ivec2(6, 0), 0);
+  vec4 sheen = texelFetch(u_surfaces, at + ivec2(7, 0), 0);
+  float clearcoat_roughness = texelFetch(u_surfaces, at + ivec2(1, 0), 0).w;
+  return DetailRecord(emission.rgb, emission.a, coat.rgb, coat.a, clearcoat_roughness, sheen.rgb,
+                      sheen.a);
+}
+#endif
+
 BufferVertex Moved(BufferVertex vertex, MaterialRecord record) {
   vec4 place = vec4(vertex.position_m, 1.0);
   vec3 normal = vertex.normal, lift = vertex.ambient_without;

@@ -3,7 +3,8 @@
 // compositor/surfaces/visibility_buffer.h, from 1 on. 0: nothing that changes.
 //
 // OBJECT: the triangle belongs to a virtual object. TEXTURED: also writes the textures' base color,
-// roughness and metallic. ALPHA: writes only the samples that alpha covers.
+// roughness and metallic. DETAILED: with the vertices' colors; also writes bumps and emission.
+// ALPHA: writes only the samples that alpha covers.
 
 #include "compositor/shaders/visibility_buffer_layout.glsl"
 
@@ -19,6 +20,27 @@ in vec2 v_uv;
 layout(binding = 0) uniform sampler2D u_base_color_texture;
 layout(binding = 1) uniform sampler2D u_metallic_roughness_texture;
 layout(location = 1) out vec4 out_texel;
+
+#ifdef DETAILED
+#include "compositor/shaders/surface_gradient.glsl"
+
+in vec3 v_position_m;
+in vec2 v_second_uv;
+in vec4 v_color;
+layout(binding = 2) uniform sampler2D u_normal_texture;
+layout(binding = 3) uniform sampler2D u_emission_texture;
+uniform float u_normal_scale;  // 0: no normal map. Negative on the back of an open surface.
+// TextureCoordinates: the matrix's rows; the offset, and 1 for the second set.
+uniform vec4 u_coat_rows, u_normal_rows, u_emission_rows;
+uniform vec3 u_coat_offset, u_normal_offset, u_emission_offset;
+layout(location = 2) out vec4 out_gradient;
+layout(location = 3) out vec4 out_emission;
+
+vec2 Coordinates(vec4 rows, vec3 offset) {
+  vec2 uv = mix(v_uv, v_second_uv, offset.z);
+  return vec2(dot(rows.xy, uv), dot(rows.zw, uv)) + offset.xy;
+}
+#endif
 
 #ifdef ALPHA
 uniform int u_alpha;  // Material::Alpha: 0 ignored, 1 cut out, 2 blended.
@@ -62,6 +84,9 @@ int SamplesCovered() {
     vec2 uv = v_uv + aside.x * step_x + aside.y * step_y;
     float alpha =
         u_opacity * textureGrad(u_base_color_texture, uv, side * step_x, side * step_y).a;
+#ifdef DETAILED
+    alpha *= v_color.a;
+#endif
     float spread = (float((i + first) % u_samples) + dither) / float(u_samples);
     float threshold = u_alpha == 2 ? spread : mix(u_alpha_cutoff, spread, minified);
     covered |= alpha >= threshold || u_alpha == 0 ? 1 << i : 0;
@@ -78,7 +103,19 @@ void main() {
 #endif
 #ifdef TEXTURED
   vec4 texel = texture(u_base_color_texture, v_uv);
+#ifdef DETAILED
+  texel.rgb *= v_color.rgb;
+  vec2 coat =
+      texture(u_metallic_roughness_texture, Coordinates(u_coat_rows, u_coat_offset)).gb;
+  vec2 at = Coordinates(u_normal_rows, u_normal_offset);
+  vec3 bump = 2.0 * texture(u_normal_texture, at).rgb - 1.0;
+  out_gradient = vec4(
+      u_normal_scale * SurfaceGradient(bump, dFdx(v_position_m), dFdy(v_position_m), dFdx(at), dFdy(at)),
+      0.0);
+  out_emission = texture(u_emission_texture, Coordinates(u_emission_rows, u_emission_offset));
+#else
   vec2 coat = texture(u_metallic_roughness_texture, v_uv).gb;
+#endif
   out_texel = vec4(texel.rgb, CodeOfCoat(coat.x, coat.y));
 #ifdef ALPHA
   gl_SampleMask[0] = SamplesCovered();

@@ -3,7 +3,8 @@
 // coverage. Each piece of surface (object_pixels.frag) is shaded once. NO_SUN: everything that the
 // pixel shows faces away from the sun.
 //
-// TEXTURED: triangle_id.frag sampled textures. GLOSSY: some objects are glossy. This is a
+// TEXTURED: triangle_id.frag sampled textures. DETAILED: and bumps and emission; some objects may be
+// unlit. Needs TEXTURED and GLOSSY. GLOSSY: some objects are glossy. This is a
 // permutation, not a test, because Mesa's software renderer executes an `if` regardless of its
 // condition.
 
@@ -37,6 +38,14 @@ uniform vec3 u_up;                    // Unit, marker coordinates.
 layout(binding = 4) uniform sampler2DMS u_texels;
 #endif
 
+#ifdef DETAILED
+#include "compositor/shaders/sheen.glsl"
+#include "compositor/shaders/surface_gradient.glsl"
+const float kClearcoatF0 = 0.04;  // KHR_materials_clearcoat.
+layout(binding = 16) uniform sampler2DMS u_gradients;
+layout(binding = 17) uniform sampler2DMS u_emissions;
+#endif
+
 layout(location = 0) out vec4 out_color;
 
 #ifdef TEXTURED
@@ -58,6 +67,17 @@ MaterialRecord Textured(MaterialRecord record, vec4 samples) {
 }
 #endif
 
+#ifdef DETAILED
+// Mean of a texture's samples that show the piece.
+vec3 MeanOf(sampler2DMS texels, vec4 samples) {
+  vec3 sum = vec3(0.0);
+  for (int i = 0; i < int(u_samples); ++i) {
+    sum += samples[i] * texelFetch(texels, ivec2(gl_FragCoord.xy), i).rgb;
+  }
+  return sum / max(dot(samples, vec4(1.0)), 1.0);
+}
+#endif
+
 #ifdef GLOSSY
 vec3 PrefilteredEnvironment(vec3 direction, float roughness) {
   vec2 uv = vec2(atan(direction.y, direction.x) / (2.0 * kPi) + 0.5,
@@ -75,17 +95,16 @@ vec3 PrefilteredEnvironment(vec3 direction, float roughness) {
   return strength * mix(low, high, fract(level));
 }
 
-// Specular reflection of the sun and the environment by metals and coats. `sun` includes the
+// Specular reflection of the sun and the environment by a metal or coat. `sun` includes the
 // surface's cosine.
-vec3 MirroredRadiance(VisibleSurface surface, MaterialRecord record, vec3 sun) {
+vec3 MirroredRadiance(VisibleSurface surface, vec3 f0, float roughness, vec3 sun) {
   vec3 normal = surface.normal;
   vec3 to_eye = normalize(u_eye_m - surface.position_m);
-  vec3 f0 = mix(vec3(record.dielectric_f0), record.base_color, record.metallic);
   float n_dot_v = max(dot(normal, to_eye), 1e-4);
   vec3 radiance = vec3(0.0);
 #ifndef NO_SUN
   vec3 half_vector = normalize(to_eye + u_to_sun);
-  float alpha = max(record.roughness * record.roughness, 1e-3);
+  float alpha = max(roughness * roughness, 1e-3);
   vec3 specular = FresnelSchlick(max(dot(to_eye, half_vector), 0.0), f0) *
                   (DistributionGgx(max(dot(normal, half_vector), 0.0), alpha) *
                    VisibilitySmith(n_dot_v, max(dot(normal, u_to_sun), 1e-4), alpha));
@@ -93,35 +112,96 @@ vec3 MirroredRadiance(VisibleSurface surface, MaterialRecord record, vec3 sun) {
 #endif
   // Phantoms and objects occlude the reflected sky as much as the whole incident light.
   vec3 open = max(PrefilteredEnvironment(normal, 1.0) * kPi, vec3(1e-6));
-  radiance += EnvironmentBrdf(f0, record.roughness, n_dot_v) *
-              PrefilteredEnvironment(reflect(-to_eye, normal), record.roughness) *
+  radiance += EnvironmentBrdf(f0, roughness, n_dot_v) *
+              PrefilteredEnvironment(reflect(-to_eye, normal), roughness) *
               clamp(surface.ambient_with / open, 0.0, 2.0);
   return max(max(f0.r, f0.g), f0.b) > 0.0 ? radiance : vec3(0.0);
 }
 #endif
 
-vec3 ColorOf(VisibleSurface surface, MaterialRecord record) {
+#ifdef DETAILED
+// Turns the normal by the bumps. The sky's light on the surface changes as that of the whole sky
+// does: where a body occludes it, bumps keep their contrast.
+VisibleSurface Bumped(VisibleSurface surface, vec3 gradient) {
+  vec3 normal = BumpedNormal(surface.normal, gradient);
+  vec3 before = PrefilteredEnvironment(surface.normal, 1.0);
+  vec3 after = PrefilteredEnvironment(normal, 1.0);
+  surface.ambient_with *= clamp(after / max(before, vec3(1e-6)), 0.0, 4.0);
+  surface.normal = normal;
+  return surface;
+}
+#endif
+
+#ifdef DETAILED
+// Adds the layers over the base, whose radiance is given. `coat`: the surface without bumps, which
+// the clear coat fills (KHR_materials_clearcoat). `sun_lux`: across its rays.
+vec3 WithLayers(vec3 base, VisibleSurface surface, VisibleSurface coat, DetailRecord detail,
+                vec3 sun_lux) {
+  vec3 to_eye = normalize(u_eye_m - surface.position_m);
+  float n_dot_v = max(dot(surface.normal, to_eye), 1e-4);
+  // KHR_materials_sheen: what the sheen reflects does not reach the base.
+  float sheen = SheenReflectance(detail.sheen_roughness, n_dot_v);
+  vec3 color = detail.sheen_color;
+  vec3 radiance = base * (1.0 - max(max(color.r, color.g), color.b) * sheen);
+  radiance += color * sheen * surface.ambient_with / kPi;
+#ifndef NO_SUN
+  float n_dot_l = max(dot(surface.normal, u_to_sun), 1e-4);
+  float rough = max(detail.sheen_roughness, kMinSheenRoughness);
+  float n_dot_h = max(dot(surface.normal, normalize(to_eye + u_to_sun)), 0.0);
+  radiance += color * sun_lux * (n_dot_l * DistributionCharlie(n_dot_h, rough * rough) *
+                                 VisibilityAshikhmin(n_dot_v, n_dot_l));
+#endif
+  float coat_n_dot_v = max(dot(coat.normal, to_eye), 1e-4);
+  radiance *= 1.0 - detail.clearcoat * FresnelSchlick(coat_n_dot_v, vec3(kClearcoatF0)).x;
+  return radiance + detail.clearcoat * MirroredRadiance(coat, vec3(kClearcoatF0),
+                                                        detail.clearcoat_roughness,
+                                                        sun_lux * max(dot(coat.normal, u_to_sun), 0.0));
+}
+#endif
+
+vec3 ColorOf(VisibleSurface surface, MaterialRecord record
+#ifdef DETAILED
+             , VisibleSurface coat, DetailRecord detail
+#endif
+) {
 #ifdef NO_SUN
-  vec3 sun = vec3(0.0);
+  vec3 sun_lux = vec3(0.0), sun = vec3(0.0);
 #else
   float n_dot_l = max(dot(surface.normal, u_to_sun), 0.0);
+#ifdef DETAILED
+  // Where the surface without bumps faces away from the sun, its bumps receive none. Their light
+  // ends gradually before, so that no edges of triangles show.
+  n_dot_l *= smoothstep(0.0, 0.2, dot(coat.normal, u_to_sun));
+  vec3 normal = coat.normal;  // The curved surface has no bumps.
+#else
+  vec3 normal = surface.normal;
+#endif
   // A coarse mesh with smooth normals represents a curved surface. The sun shines on that, also
   // where its triangles already face away.
   vec3 lift = surface.lift + surface.ambient_without;
-  bool curved = dot(lift, surface.normal) > 0.0 &&
-                dot(surface.normal, u_to_sun) > dot(surface.flat_normal, u_to_sun);
+  bool curved =
+      dot(lift, normal) > 0.0 && dot(normal, u_to_sun) > dot(surface.flat_normal, u_to_sun);
   float visibility = ShadowVisibility(1, surface.position_m + lift,
-                                      curved ? surface.normal : surface.flat_normal, surface.step_x,
+                                      curved ? normal : surface.flat_normal, surface.step_x,
                                       surface.step_y);
   visibility *= SunTransmittance(surface.position_m);
-  vec3 sun = u_sun_normal_lux * (visibility * n_dot_l);
+  vec3 sun_lux = u_sun_normal_lux * visibility;
+  vec3 sun = sun_lux * n_dot_l;
 #endif
 
   vec3 diffuse = record.base_color * (1.0 - record.metallic) * record.base_under_coat;
   vec3 radiance = diffuse * (sun + surface.ambient_with) / kPi;
 
 #ifdef GLOSSY
-  radiance += MirroredRadiance(surface, record, sun);
+  vec3 f0 = vec3(record.dielectric_f0);
+#ifdef DETAILED
+  f0 = min(f0 * detail.coat_tint, vec3(1.0));
+#endif
+  radiance += MirroredRadiance(surface, mix(f0, record.base_color, record.metallic),
+                               record.roughness, sun);
+#endif
+#ifdef DETAILED
+  radiance = WithLayers(radiance, surface, coat, detail, sun_lux) + detail.emitted_cd_m2;
 #endif
   FogAir air = FogUpTo(distance(u_eye_m, surface.position_m), u_fog_split_m, u_fog_optical_depth,
                        u_fog_inscattered);
@@ -141,7 +221,15 @@ void main() {
 #ifdef TEXTURED
     record = Textured(record, samples);
 #endif
-    sum += dot(samples, vec4(1.0)) * vec4(ColorOf(surface, record), 1.0);
+#ifdef DETAILED
+    DetailRecord detail = DetailOf(int(ValueOfComponent(int(ComponentOf(triangle)))));
+    detail.emitted_cd_m2 *= MeanOf(u_emissions, samples);
+    VisibleSurface bumped = Bumped(surface, MeanOf(u_gradients, samples));
+    vec3 color = mix(ColorOf(bumped, record, surface, detail), record.base_color, detail.unlit);
+#else
+    vec3 color = ColorOf(surface, record);
+#endif
+    sum += dot(samples, vec4(1.0)) * vec4(color, 1.0);
     seen = uvec4(seen.yzw, 0u);
   } while (seen.x != 0u);
   out_color = sum / u_samples;

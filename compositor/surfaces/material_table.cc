@@ -12,7 +12,15 @@ void MaterialTable::Set(std::size_t surface, const Material& material,
   texels_.resize(std::max(texels_.size(), first + kTexelsPerSurface));
   const auto& [r, g, b] = material.base_color;
   texels_[first] = {r, g, b, material.metallic};
-  texels_[first + 1] = {material.roughness, material.coat.f0, material.coat.base_share, 0.0F};
+  texels_[first + 1] = {material.roughness, material.coat.f0, material.coat.base_share,
+                        material.detail.layers.clearcoat_roughness};
+  const auto& [emitted_r, emitted_g, emitted_b] = material.detail.emission.luminance_cd_m2;
+  texels_[first + 5] = {emitted_r, emitted_g, emitted_b, material.detail.unlit ? 1.0F : 0.0F};
+  const MaterialLayers& layers = material.detail.layers;
+  const auto& [tint_r, tint_g, tint_b] = layers.coat_tint;
+  texels_[first + 6] = {tint_r, tint_g, tint_b, layers.clearcoat};
+  const auto& [sheen_r, sheen_g, sheen_b] = layers.sheen_color;
+  texels_[first + 7] = {sheen_r, sheen_g, sheen_b, layers.sheen_roughness};
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 4; ++column) {
       texels_[first + 2 + static_cast<std::size_t>(row)][static_cast<std::size_t>(column)] =

@@ -18,7 +18,7 @@ namespace pleinair::compositor {
 class MaterialTable {
  public:
   /// Layout; twins of shaders/visibility_buffer_layout.glsl.
-  static constexpr int kTexelsPerSurface = 5, kSurfacesPerRow = 819;
+  static constexpr int kTexelsPerSurface = 8, kSurfacesPerRow = 512;
 
   /// Sets the material of `surface` (from 0), and its transform: marker from where it was lit.
   void Set(std::size_t surface, const Material& material, const glm::mat4& marker_from_lit);

@@ -1,5 +1,6 @@
 #include "compositor/surfaces/scene_materials.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -23,6 +24,21 @@ bool IsTextured(const Material& material) {
   return material.base_color_texture >= 0 || material.metallic_roughness_texture >= 0;
 }
 
+/// Returns whether metallic and roughness have the texture coordinates of the base color.
+bool SharesCoordinates(const TextureCoordinates& coordinates) {
+  return !coordinates.second_set &&
+         coordinates.matrix == std::array<float, 4>{1.0F, 0.0F, 0.0F, 1.0F} &&
+         coordinates.offset == std::array<float, 2>{};
+}
+
+bool HasDetail(const Material& material) {
+  const MaterialDetail& detail = material.detail;
+  return detail.normal_map.texture >= 0 || detail.unlit || detail.layers != MaterialLayers{} ||
+         detail.emission.luminance_cd_m2 != std::array<float, 3>{} ||
+         (material.metallic_roughness_texture >= 0 &&
+          !SharesCoordinates(detail.metallic_roughness_coordinates));
+}
+
 }  // namespace
 
 Result<SceneMaterials> SceneMaterials::Create(const std::vector<PlacedModel>& scene) {
@@ -35,13 +51,26 @@ Result<SceneMaterials> SceneMaterials::Create(const std::vector<PlacedModel>& sc
     PLEINAIR_ASSIGN_OR_RETURN(auto textures, UploadTextures(*placed.model));
     materials.model_textures_.push_back(std::move(textures));
     if (placed.is_phantom) continue;
+    for (const Mesh& mesh : placed.model->meshes) {
+      materials.has_details_ = materials.has_details_ || !mesh.details.empty();
+      const auto material = static_cast<std::size_t>(mesh.material);
+      materials.has_alpha_ =
+          materials.has_alpha_ ||
+          (placed.model->materials[material].alpha != Material::Alpha::kIgnored &&
+           std::ranges::any_of(mesh.details, [](const VertexDetail& d) { return d.color[3] < 1; }));
+    }
     for (const Material& material : placed.model->materials) {
       const bool alpha = IsSeenThrough(*placed.model, material);
       materials.has_alpha_ = materials.has_alpha_ || alpha;
       materials.has_textures_ = materials.has_textures_ || alpha || IsTextured(material);
       materials.has_gloss_ =
           materials.has_gloss_ || material.coat.f0 > 0.0F || material.metallic > 0.0F;
+      materials.has_details_ = materials.has_details_ || HasDetail(material);
     }
+  }
+  if (materials.has_details_) {
+    materials.has_textures_ = true;
+    materials.has_gloss_ = true;  // Bumps vary the sky's light, which comes from the environment.
   }
   return materials;
 }
@@ -53,6 +82,8 @@ void SceneMaterials::BindTextures(int placed_model, const Material& material) co
   };
   bind(material.base_color_texture, 0);
   bind(material.metallic_roughness_texture, 1);
+  bind(material.detail.normal_map.texture, 2);
+  bind(material.detail.emission.texture, 3);
 }
 
 }  // namespace pleinair::compositor

@@ -22,13 +22,16 @@ class SceneMaterials {
     return scene_[static_cast<std::size_t>(placed_model)]
         .model->materials[static_cast<std::size_t>(material)];
   }
-  /// Binds a material's base color to unit 0, metallic and roughness to unit 1. A missing texture
-  /// is replaced by white.
+  /// Binds a material's base color to unit 0, metallic and roughness to unit 1, its normal map to
+  /// unit 2 and its emission to unit 3. A missing texture is replaced by white.
   void BindTextures(int placed_model, const Material& material) const;
 
   std::size_t model_count() const { return scene_.size(); }
   /// Returns whether an object has textures or alpha.
   bool HasTextures() const { return has_textures_; }
+  /// Returns whether an object needs the permutation DETAILED of the shaders: it has normal maps,
+  /// emission, layers, vertex details, unlit materials or several texture coordinates.
+  bool HasDetails() const { return has_details_; }
   /// Returns whether an object is glossy: it has a metal or a coat.
   bool HasGloss() const { return has_gloss_; }
   /// Returns whether an object has holes or glass.
@@ -36,7 +39,7 @@ class SceneMaterials {
 
  private:
   std::vector<PlacedModel> scene_;
-  bool has_textures_ = false, has_alpha_ = false, has_gloss_ = false;
+  bool has_textures_ = false, has_alpha_ = false, has_gloss_ = false, has_details_ = false;
   gl::GlTexture white_;
   std::vector<std::vector<gl::GlTexture>> model_textures_;  // One list per placed model.
 };

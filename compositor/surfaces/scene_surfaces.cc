@@ -4,9 +4,34 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <utility>
 
 namespace pleinair::compositor {
+
+namespace {
+
+constexpr GLuint kColorAttribute = 3;  // In shaders/scene_surface.vert.
+
+void SetCoordinates(const std::string& name, const TextureCoordinates& coordinates,
+                    const gl::GlProgram& program) {
+  const auto& [uu, uv, vu, vv] = coordinates.matrix;
+  program.Set(name + "_rows", glm::vec4(uu, uv, vu, vv));
+  program.Set(name + "_offset", glm::vec3(coordinates.offset[0], coordinates.offset[1],
+                                          coordinates.second_set ? 1.0F : 0.0F));
+}
+
+/// Uniforms of the permutation DETAILED of shaders/triangle_id.frag.
+void SetDetail(const MaterialDetail& detail, bool is_back, const gl::GlProgram& program) {
+  const float side = is_back ? -1.0F : 1.0F;
+  program.Set("u_normal_scale",
+              detail.normal_map.texture >= 0 ? side * detail.normal_map.scale : 0.0F);
+  SetCoordinates("u_coat", detail.metallic_roughness_coordinates, program);
+  SetCoordinates("u_normal", detail.normal_map.coordinates, program);
+  SetCoordinates("u_emission", detail.emission.coordinates, program);
+}
+
+}  // namespace
 
 Result<SceneSurfaces> SceneSurfaces::Create(const std::vector<PlacedModel>& scene) {
   SceneSurfaces surfaces;
@@ -154,6 +179,9 @@ Result<void> SceneSurfaces::SortObjects(const glm::vec3& to_sun) {
 void SceneSurfaces::DrawObjects(const gl::GlProgram& program) const {
   std::size_t object = 0;
   program.Set("u_step", 1);
+  const bool detailed = materials_.HasDetails();
+  // Meshes without vertex details are white.
+  if (detailed) glVertexAttrib4f(kColorAttribute, 1.0F, 1.0F, 1.0F, 1.0F);
   for (const SurfaceBuffers& surface : surfaces_) {
     if (!surface.IsDrawnObject()) continue;
     const Material& material = MaterialOf(surface);
@@ -164,6 +192,7 @@ void SceneSurfaces::DrawObjects(const gl::GlProgram& program) const {
     program.Set("u_surface", static_cast<int>(object));
     program.Set("u_marker_from_lit", glm::mat4(placement_.MovedBy(surface.placed_model())));
     program.Set("u_first_id", object_buffer_.first_id(object));
+    if (detailed) SetDetail(material.detail, surface.is_back(), program);
     surface.Draw();
     ++object;
   }

@@ -20,7 +20,7 @@ Result<SurfaceBuffers> SurfaceBuffers::Create(const LitMesh& mesh) {
   std::vector<Vertex> vertices(mesh.positions.size());
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     vertices[i].position = mesh.positions[i];
-    if (!mesh.uvs.empty()) vertices[i].uv = mesh.uvs[i];
+    if (!mesh.texturing.uvs.empty()) vertices[i].uv = mesh.texturing.uvs[i];
   }
   SurfaceBuffers surface;
   surface.is_phantom_ = mesh.is_phantom;
@@ -38,6 +38,14 @@ Result<SurfaceBuffers> SurfaceBuffers::Create(const LitMesh& mesh) {
   array.SetFloatAttribute(0, 3, surface.vertices_, kStride, offsetof(Vertex, position));
   array.SetFloatAttribute(1, 2, surface.vertices_, kStride, offsetof(Vertex, uv));
   array.SetElementBuffer(surface.indices_);
+  surface.is_back_ = mesh.texturing.is_back;
+  if (const auto& details = mesh.texturing.details; !details.empty()) {
+    PLEINAIR_ASSIGN_OR_RETURN(surface.details_,
+                              gl::GlBuffer::FromSpan(std::span<const VertexDetail>(details)));
+    constexpr int kDetailStride = sizeof(VertexDetail);
+    array.SetFloatAttribute(2, 2, surface.details_, kDetailStride, offsetof(VertexDetail, uv));
+    array.SetFloatAttribute(3, 4, surface.details_, kDetailStride, offsetof(VertexDetail, color));
+  }
   return surface;
 }
 
@@ -59,9 +67,10 @@ Result<std::vector<gl::GlTexture>> UploadTextures(const Model& model) {
   textures.reserve(model.textures.size());
   for (std::size_t i = 0; i < model.textures.size(); ++i) {
     const Image<std::uint8_t>& picture = model.textures[i];
-    const bool linear = std::any_of(
-        model.materials.begin(), model.materials.end(),
-        [&](const Material& m) { return m.metallic_roughness_texture == static_cast<int>(i); });
+    const auto index = static_cast<int>(i);
+    const bool linear = std::ranges::any_of(model.materials, [&](const Material& m) {
+      return m.metallic_roughness_texture == index || m.detail.normal_map.texture == index;
+    });
     const auto longest = static_cast<unsigned>(std::max(picture.width(), picture.height()));
     PLEINAIR_ASSIGN_OR_RETURN(
         gl::GlTexture texture,

@@ -33,6 +33,8 @@ class SurfaceBuffers {
   bool CastsShadow() const { return role_ != MeshRole::kRenderOnly; }
   int placed_model() const { return placed_model_; }
   int material() const { return material_; }
+  /// As MeshTexturing::is_back.
+  bool is_back() const { return is_back_; }
   const gl::GlVertexArray& vertex_array() const { return vertex_array_; }
   int index_count() const { return index_count_; }
 
@@ -42,7 +44,9 @@ class SurfaceBuffers {
   int material_ = 0;
   MeshRole role_ = MeshRole::kAll;
   int index_count_ = 0;
+  bool is_back_ = false;
   gl::GlBuffer vertices_;
+  gl::GlBuffer details_;  // Empty if the vertices have none.
   gl::GlBuffer indices_;
   gl::GlVertexArray vertex_array_;
 };

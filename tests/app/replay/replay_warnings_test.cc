@@ -40,9 +40,6 @@ TEST(ModelWarnings, ReportOnceOfAFileWhatOfItDoesNotShow) {
   EXPECT_THAT(ModelWarnings({place(model, false), place(model, false)}),
               ElementsAre("lamp.glb uses features that are not drawn: emission, normal maps."));
   EXPECT_THAT(ModelWarnings({place(model, true)}), IsEmpty());
-  model.unsupported_features = {compositor::kVertexColors};
-  EXPECT_THAT(ModelWarnings({place(model, true)}),
-              ElementsAre("lamp.glb uses features that are not drawn: colours of vertices."));
 }
 
 TEST(MarkerWarnings, ReportWhatWasLookedForInVain) {

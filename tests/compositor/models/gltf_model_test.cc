@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include "compositor/models/gltf_texture_transform.h"
 #include "compositor/models/model.h"
 #include "tests/compositor/models/model_files_made.h"
 
@@ -38,6 +39,7 @@ struct TriangleFile {
   std::string extra;
   /// Additional JSON beside the material's roughness, beside its name, and after the attributes.
   std::string coat, alpha, attributes, color_texture = R"({"index":0})";
+  std::string base = "0.5,0.25,1,0.75", metallic = "1";
 
   std::string Buffer() const {
     std::string buffer = Bytes(positions) + Bytes(uvs) + Bytes(indices);
@@ -52,8 +54,8 @@ struct TriangleFile {
            R"(},)"
            R"("indices":2,"material":0}]}],"materials":[{"name":"green","doubleSided":true,)" +
            alpha +
-           R"("pbrMetallicRoughness":{"baseColorFactor":[0.5,0.25,1,0.75],"metallicFactor":1,)"
-           R"("roughnessFactor":0.3,)" +
+           R"("pbrMetallicRoughness":{"baseColorFactor":[)" + base + R"(],"metallicFactor":)" +
+           metallic + R"(,"roughnessFactor":0.3,)" +
            coat + R"("baseColorTexture":)" + color_texture +
            R"(}}],"textures":[{"source":0}],)"
            R"("images":[{"bufferView":3,"mimeType":"image/png"}],"accessors":[)" +
@@ -109,7 +111,6 @@ TEST(GltfModel, ReadsGeometryMaterialAndTexture) {
   EXPECT_EQ(mesh.normals[0], (std::array<float, 3>{0.0F, -1.0F, 0.0F}));
   const Material& material = model->materials[mesh.material];
   EXPECT_EQ(material.name, "green");
-  EXPECT_TRUE(material.double_sided);
   EXPECT_EQ(material.base_color, (std::array<float, 3>{0.5F, 0.25F, 1.0F}));
   EXPECT_FLOAT_EQ(material.roughness, 0.3F);
   EXPECT_FLOAT_EQ(material.coat.f0, 0.04F);
@@ -149,8 +150,16 @@ TEST(GltfModel, ReadsTexturesOfRoughnessAndMetallic) {
   EXPECT_NE(material.metallic_roughness_texture, material.base_color_texture);
   EXPECT_FLOAT_EQ(material.metallic, 1.0F);
   EXPECT_FLOAT_EQ(material.roughness, 0.3F);
-  // With texture coordinates of its own set the texture is replaced by its mean.
+  // With texture coordinates of a third set the texture is replaced by its mean.
   file.coat = R"("metallicRoughnessTexture":{"index":0,"texCoord":1},)";
+  model = file.Load();
+  ASSERT_TRUE(model);
+  EXPECT_TRUE(model->materials[0].detail.metallic_roughness_coordinates.second_set);
+  file.alpha = R"("normalTexture":{"index":0,"texCoord":2},)";
+  EXPECT_THAT(UnsupportedFeatures(*file.Load()), ElementsAre("a third set of texture coordinates"));
+  file.alpha.clear();
+  file.coat = R"("metallicRoughnessTexture":{"index":0,"extensions":{"KHR_texture_transform":)"
+              R"({"scale":[1e30,1e30]}}},)";
   model = file.Load();
   ASSERT_TRUE(model);
   EXPECT_EQ(model->materials[0].metallic_roughness_texture, -1);
@@ -161,23 +170,97 @@ TEST(GltfModel, ReadsTexturesOfRoughnessAndMetallic) {
 TEST(GltfModel, ReportsWhatItLeavesOut) {
   TriangleFile file;
   EXPECT_THAT(UnsupportedFeatures(*file.Load()), IsEmpty());
-  file.alpha = R"("normalTexture":{"index":0},"emissiveFactor":[0,0,0],)";
-  EXPECT_THAT(UnsupportedFeatures(*file.Load()), ElementsAre("normal maps"));
-  file.alpha = R"("emissiveFactor":[0,2,0],"extensions":{"KHR_materials_transmission":)"
-               R"({"transmissionFactor":1},"KHR_materials_emissive_strength":{}},)";
-  EXPECT_THAT(UnsupportedFeatures(*file.Load()),
-              ElementsAre("KHR_materials_transmission", "emission"));
+  file.alpha = R"("extensions":{"KHR_materials_iridescence":{}},)";
+  EXPECT_THAT(UnsupportedFeatures(*file.Load()), ElementsAre("KHR_materials_iridescence"));
   file = {};
-  file.attributes = R"(,"COLOR_0":0)";
   file.node = R"({"mesh":0,"skin":0})";
   file.extra = R"(,"skins":[{"joints":[0]}],"animations":[{"channels":[],"samplers":[]}])";
-  EXPECT_THAT(UnsupportedFeatures(*file.Load()),
-              ElementsAre("animations", "colours of vertices", "skins"));
+  EXPECT_THAT(UnsupportedFeatures(*file.Load()), ElementsAre("animations", "skins"));
   // No primitive uses this material.
   file = {};
   file.color_texture = R"({"index":0}}},{"emissiveFactor":[1,1,1],"pbrMetallicRoughness":{)"
                        R"("metallicFactor":1)";
   EXPECT_THAT(UnsupportedFeatures(*file.Load()), IsEmpty());
+}
+
+TEST(GltfModel, ReadsNormalMapEmissionColorsOfVerticesAndUnlitMaterials) {
+  TriangleFile file;
+  file.alpha = R"("normalTexture":{"index":0,"scale":0.5,"extensions":{"KHR_texture_transform":)"
+               R"({"offset":[0.25,0],"scale":[2,4]}}},"emissiveTexture":{"index":0,"texCoord":1},)"
+               R"("emissiveFactor":[0,1,0.5],"extensions":{"KHR_materials_emissive_strength":)"
+               R"({"emissiveStrength":3000},"KHR_materials_unlit":{}},)";
+  file.attributes = R"(,"COLOR_0":0,"TEXCOORD_1":1)";
+  file.positions = {0.5, 0, 0, 1, 0.25, 0, 0, 2, 0};
+  const auto model = file.Load();
+  ASSERT_TRUE(model) << model.error().Message();
+  EXPECT_THAT(UnsupportedFeatures(*model), IsEmpty());
+  const Mesh& mesh = model->meshes[0];
+  const MaterialDetail& detail = model->materials[static_cast<std::size_t>(mesh.material)].detail;
+  EXPECT_EQ(detail.emission.luminance_cd_m2, (std::array<float, 3>{0.0F, 3000.0F, 1500.0F}));
+  EXPECT_TRUE(detail.emission.coordinates.second_set);
+  EXPECT_TRUE(detail.unlit);
+  EXPECT_EQ(detail.normal_map.scale, 0.5F);
+  EXPECT_FALSE(detail.normal_map.coordinates.second_set);
+  EXPECT_EQ(detail.normal_map.coordinates.matrix, (std::array<float, 4>{2, 0, 0, 4}));
+  EXPECT_EQ(detail.normal_map.coordinates.offset, (std::array<float, 2>{0.25F, 0.0F}));
+  EXPECT_NE(detail.normal_map.texture, detail.emission.texture) << "linear and sRGB";
+  ASSERT_EQ(mesh.details.size(), 3U);
+  EXPECT_EQ(mesh.details[0].color, (std::array<float, 4>{0.5F, 0.0F, 0.0F, 1.0F}));
+  EXPECT_EQ(mesh.details[1].color, (std::array<float, 4>{1.0F, 0.25F, 0.0F, 1.0F}));
+  EXPECT_EQ(mesh.details[1].uv, (std::array<float, 2>{1.0F, 0.0F}));
+}
+
+TEST(GltfModel, ReadsLayersAndTransmission) {
+  TriangleFile file;
+  file.picture = MakePng(1, 1, {{102, 51, 255}});
+  file.alpha =
+      R"("extensions":{"KHR_materials_ior":{"ior":2.0},"KHR_materials_specular":)"
+      R"({"specularFactor":0.5,"specularColorFactor":[1,0.5,0.25]},"KHR_materials_clearcoat":)"
+      R"({"clearcoatFactor":0.5,"clearcoatTexture":{"index":0},"clearcoatRoughnessFactor":0.25},)"
+      R"("KHR_materials_sheen":{"sheenColorFactor":[0,0.5,1],"sheenRoughnessFactor":0.75}},)";
+  auto model = file.Load();
+  ASSERT_TRUE(model) << model.error().Message();
+  EXPECT_THAT(UnsupportedFeatures(*model), IsEmpty());
+  const Material* material = &model->materials[0];
+  EXPECT_NEAR(material->coat.f0, 0.5 / 9.0, 1e-6);
+  EXPECT_EQ(material->detail.layers.coat_tint, (std::array<float, 3>{1, 0.5F, 0.25F}));
+  EXPECT_NEAR(material->detail.layers.clearcoat, 0.5 * 0.4, 1e-6);
+  EXPECT_EQ(material->detail.layers.clearcoat_roughness, 0.25F);
+  EXPECT_EQ(material->detail.layers.sheen_color, (std::array<float, 3>{0, 0.5F, 1}));
+  EXPECT_EQ(material->detail.layers.sheen_roughness, 0.75F);
+  // A pane of clear glass: 8 % of it, its reflections, remain.
+  file.alpha = R"("extensions":{"KHR_materials_transmission":{"transmissionFactor":1}},)";
+  file.coat = R"("metallicRoughnessTexture":{"index":0},)";
+  file.base = "1,1,1,0.5";
+  file.metallic = "0";
+  model = file.Load();
+  ASSERT_TRUE(model) << model.error().Message();
+  material = &model->materials[0];
+  EXPECT_EQ(material->alpha, Material::Alpha::kBlended);
+  EXPECT_NEAR(material->opacity, 0.08, 1e-6) << "without alphaMode, alpha does not count";
+  // Metal transmits nothing.
+  file.metallic = "1";
+  EXPECT_EQ(file.Load()->materials[0].alpha, Material::Alpha::kIgnored);
+}
+
+TEST(GltfModel, ExpressesOneMapOfTextureCoordinatesByAnother) {
+  MaterialUvs uvs{{0, {0.5, 0.25}, {2.0, 3.0}, 0.3}, {}};
+  const UvMap other{0, {-1.0, 2.0}, {0.5, 4.0}, -1.1};
+  const auto coordinates = CoordinatesIn(&uvs, other);
+  ASSERT_TRUE(coordinates);
+  EXPECT_FALSE(uvs.second_set);
+  const std::array<float, 2> uv{0.7F, -0.2F};
+  const auto [u, v] = uvs.first(uv);
+  const auto expected = other(uv);
+  const auto& m = coordinates->matrix;
+  EXPECT_NEAR(m[0] * u + m[1] * v + coordinates->offset[0], expected[0], 1e-5);
+  EXPECT_NEAR(m[2] * u + m[3] * v + coordinates->offset[1], expected[1], 1e-5);
+  // One further set, and no third.
+  EXPECT_TRUE(CoordinatesIn(&uvs, {.set = 1})->second_set);
+  EXPECT_FALSE(CoordinatesIn(&uvs, {.set = 2}));
+  // A map that flattens its coordinates has no inverse: the same set is read again.
+  MaterialUvs flat{{0, {0.0, 0.0}, {0.0, 1.0}, 0.0}, {}};
+  EXPECT_TRUE(CoordinatesIn(&flat, {})->second_set);
 }
 
 TEST(GltfModel, MovesTextureCoordinatesAsTheFileAsks) {

@@ -1,9 +1,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <string>
 
+#include "base/srgb.h"
 #include "compositor/models/model.h"
 #include "tests/compositor/models/model_files_made.h"
 
@@ -154,11 +156,52 @@ TEST(ObjModel, ReportsWhatItLeavesOut) {
   };
   const std::string plain = "v 0 0 0 1\nv 1 0 0\nv 1 1 0\n";
   EXPECT_THAT(unsupported_features("Ke 0 0 0\nNi 1.45\nKa 1 1 1\n", plain), IsEmpty());
-  EXPECT_THAT(unsupported_features("Ke 0 0 0.5\nmap_Bump -bm 0.2 bumps.png\n", plain),
-              ElementsAre("emission", "normal maps"));
-  EXPECT_THAT(unsupported_features("newmtl b\nKe 1 1 1\n", plain), IsEmpty()) << "nothing has it";
-  EXPECT_THAT(unsupported_features("", "v 0 0 0 1 0 0\nv 1 0 0\nv 1 1 0\n"),
-              ElementsAre("colours of vertices"));
+  EXPECT_THAT(unsupported_features("map_d holes.png\ndisp bumps.png\n", plain),
+              ElementsAre("displacement", "pictures of transparency (map_d)"));
+  EXPECT_THAT(unsupported_features("newmtl b\nrefl 1\n", plain), IsEmpty()) << "nothing has it";
+}
+
+TEST(ObjModel, ReadsColorsOfVertices) {
+  const auto model =
+      LoadObj("v 0 0 0 1 0 0.5\nv 1 0 0\nv 1 1 0 0 1 0\nv 0 1 0 0.5\nf 1 2 3\nf 1 3 4\n");
+  ASSERT_TRUE(model) << model.error().Message();
+  const auto& details = model->meshes[0].details;
+  ASSERT_EQ(details.size(), model->meshes[0].positions.size());
+  EXPECT_NEAR(details[0].color[2], LinearFromSrgb(0.5), 1e-6);
+  EXPECT_EQ(details[1].color, (std::array<float, 4>{1, 1, 1, 1}));
+  EXPECT_EQ(details[2].color, (std::array<float, 4>{0, 1, 0, 1}));
+  ASSERT_EQ(details.size(), 6U) << "each flat triangle has corners of its own";
+  EXPECT_EQ(details[5].color, (std::array<float, 4>{1, 1, 1, 1})) << "one number is a weight";
+  EXPECT_THAT(ErrorOf("v 0 0 0 1 x 0\n"), HasSubstr("model.obj:1"));
+}
+
+TEST(ObjModel, ReadsEmissionBumpsRoughnessAndMetalFromPictures) {
+  const TemporaryFolder folder;
+  folder.Write("grey.png", MakePng(2, 1, {{0, 0, 0}, {100, 100, 100}}));
+  folder.Write("blue.png", MakePng(1, 1, {{128, 128, 255}}));
+  folder.Write("m.mtl",
+               "newmtl a\nKd 0.5\nKe 0 300 10\nmap_Ke grey.png\nmap_Bump -bm 2 grey.png\n"
+               "map_Pr grey.png\nmap_Pm blue.png\nPm 0.5\n"
+               "newmtl b\nmap_Ke grey.png\nbump blue.png\nmap_Pr grey.png\nPr 0.25\n");
+  const auto model =
+      LoadModel(folder.Write("model.obj", std::string("mtllib m.mtl\n") + kSquare +
+                                              "usemtl a\nf 1 2 3\nusemtl b\nf 1 3 4\n"));
+  ASSERT_TRUE(model) << model.error().Message();
+  EXPECT_THAT(UnsupportedFeatures(*model), IsEmpty());
+  const auto texture = [&](int index) { return model->textures[static_cast<std::size_t>(index)]; };
+  const Material& a = model->materials[0];
+  EXPECT_EQ(a.detail.emission.luminance_cd_m2, (std::array<float, 3>{0, 300, 10}));
+  EXPECT_EQ(texture(a.detail.emission.texture)(1, 0, 0), 100);
+  // The picture repeats: both its pixels are a valley and a ridge, level in the middle.
+  EXPECT_EQ(texture(a.detail.normal_map.texture)(0, 0, 2), 255);
+  EXPECT_EQ(texture(a.metallic_roughness_texture)(1, 0, 1), 100);
+  EXPECT_EQ(texture(a.metallic_roughness_texture)(1, 0, 2), 128);
+  EXPECT_EQ(a.roughness, 1.0F);
+  EXPECT_EQ(a.metallic, 0.5F);
+  const Material& b = model->materials[1];
+  EXPECT_EQ(b.detail.emission.luminance_cd_m2, (std::array<float, 3>{1, 1, 1}));
+  EXPECT_EQ(texture(b.detail.normal_map.texture)(0, 0, 0), 128) << "a normal map is kept";
+  EXPECT_EQ(b.roughness, 0.25F);
 }
 
 TEST(ObjModel, KeepsNormalsOfTheFileUnlessAskedForOthers) {

@@ -13,6 +13,7 @@
 namespace glsl {
 using namespace glm;  // NOLINT(google-build-using-namespace): as GLSL has it.
 #include "compositor/shaders/ggx.glsl"
+#include "compositor/shaders/sheen.glsl"
 }  // namespace glsl
 
 namespace pleinair::compositor {
@@ -66,6 +67,23 @@ TEST(Ggx, TheEnvironmentsScaleIsTheIntegralOfTheReflection) {
         EXPECT_NEAR(fitted, reflected, 0.01 + 0.02 * reflected)
             << roughness << " " << n_dot_v << " " << f0;
       }
+    }
+  }
+}
+
+TEST(Sheen, ItsReflectanceIsTheIntegralOfItsReflection) {
+  for (const float roughness : {0.2F, 0.3F, 0.5F, 1.0F}) {
+    for (const double n_dot_v : {0.2, 0.5, 1.0}) {
+      const Vec3 view{std::sqrt(1 - n_dot_v * n_dot_v), 0.0, n_dot_v};
+      const double reflected = OverHemisphere([&](Vec3 light) {
+        const Vec3 half = Normalized(light + view);
+        return light.z *
+               glsl::DistributionCharlie(static_cast<float>(half.z), roughness * roughness) *
+               glsl::VisibilityAshikhmin(static_cast<float>(n_dot_v), static_cast<float>(light.z));
+      });
+      EXPECT_NEAR(glsl::SheenReflectance(roughness, static_cast<float>(n_dot_v)), reflected,
+                  0.01 + 0.05 * reflected)
+          << roughness << " " << n_dot_v;
     }
   }
 }

@@ -21,6 +21,7 @@ using namespace glm;  // NOLINT(google-build-using-namespace): as GLSL has it.
 #include "compositor/shaders/linear_shadow_ratio.glsl"
 #include "compositor/shaders/plane_hit.glsl"
 #include "compositor/shaders/srgb_transfer.glsl"
+#include "compositor/shaders/surface_gradient.glsl"
 #include "compositor/shaders/texel_code.glsl"
 #include "compositor/shaders/visibility_buffer_layout.glsl"
 }  // namespace glsl
@@ -237,6 +238,29 @@ TEST(TexelCode, KeepsRoughnessAndMetallicApart) {
       EXPECT_NEAR(glsl::CoatOfCode(code).y, metallic, 1e-6);
     }
   }
+}
+
+TEST(SurfaceGradient, TiltsTheNormalAsTheMapSays) {
+  // A surface that faces +z, seen at any scale and from any side, with u along x and v against y.
+  const glm::vec3 bump = glm::normalize(glm::vec3(0.3F, 0.4F, 1.0F));
+  for (const float scale : {1e-3F, 1.0F}) {
+    for (const float mirror : {-1.0F, 1.0F}) {  // Image rows run up or down.
+      const glm::vec3 x = scale * glm::vec3(2.0F, 0.5F, 0.0F);
+      const glm::vec3 y = mirror * scale * glm::vec3(-0.5F, 1.0F, 0.0F);
+      const glm::vec3 gradient =
+          glsl::SurfaceGradient(bump, x, y, glm::vec2(x.x, -x.y), glm::vec2(y.x, -y.y));
+      const glm::vec3 normal = glsl::BumpedNormal({0.0F, 0.0F, 1.0F}, gradient);
+      EXPECT_NEAR(glm::length(normal - bump), 0.0F, 1e-5F) << scale << mirror;
+      // A mirrored texture: u against x. Its right is west, its top stays north.
+      const glm::vec3 mirrored = glsl::BumpedNormal(
+          {0.0F, 0.0F, 1.0F},
+          glsl::SurfaceGradient(bump, x, y, glm::vec2(-x.x, -x.y), glm::vec2(-y.x, -y.y)));
+      EXPECT_NEAR(glm::length(mirrored - glm::vec3(-bump.x, bump.y, bump.z)), 0.0F, 1e-5F);
+    }
+  }
+  EXPECT_EQ(glsl::SurfaceGradient(bump, {1, 0, 0}, {0, 1, 0}, glm::vec2(0.0F), glm::vec2(0.0F)),
+            glm::vec3(0.0F))
+      << "without texture coordinates";
 }
 
 TEST(TriangleLayout, IsReadAsItIsWritten) {

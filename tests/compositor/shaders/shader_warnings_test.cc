@@ -71,7 +71,7 @@ TEST_F(ShaderWarnings, AreNoneOfSurfaces) {
 }
 
 TEST_F(ShaderWarnings, AreNoneOfPassesAndPicture) {
-  ExpectCreated(ObjectPass::Create());
+  for (const bool detailed : {false, true}) ExpectCreated(ObjectPass::Create(detailed));
   ExpectCreated(ShadowRatioPass::Create());
   ExpectCreated(ShadowDebugView::Create(SmallMaps(shadows::ShadowMethod::kSunDisc), 32, 24));
   const CameraModel camera{.width = 32, .height = 24, .fx = 30, .fy = 30, .cx = 15.5, .cy = 11.5};
