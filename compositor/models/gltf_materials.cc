@@ -13,6 +13,7 @@
 #include "base/vector.h"
 #include "compositor/models/gltf_accessor.h"
 #include "compositor/models/gltf_error.h"
+#include "compositor/models/gltf_value.h"
 #include "compositor/models/texture_decoder.h"
 
 namespace pleinair::compositor {
@@ -52,7 +53,13 @@ class MaterialReader {
     if (!IsGltfIndex(texture, gltf_.textures.size())) {
       return GltfError(where_, "refers to a texture out of range");
     }
-    const int image = gltf_.textures[static_cast<std::size_t>(texture)].source;
+    const tinygltf::Texture& source = gltf_.textures[static_cast<std::size_t>(texture)];
+    int image = source.source;
+    if (const auto webp = source.extensions.find("EXT_texture_webp");
+        DecodesWebp() && webp != source.extensions.end()) {
+      const tinygltf::Value& index = GltfField(webp->second, "source");
+      if (index.IsInt()) image = index.GetNumberAsInt();
+    }
     if (IsGltfIndex(image, gltf_.images.size())) return image;
     return GltfError(where_, "texture " + std::to_string(texture) + " has no PNG or JPEG picture");
   }
@@ -131,7 +138,7 @@ class MaterialReader {
                          double otherwise) {
     const auto found = source.extensions.find(extension);
     if (found == source.extensions.end()) return otherwise;
-    const tinygltf::Value& value = found->second.Get(key);
+    const tinygltf::Value& value = GltfField(found->second, key);
     return value.IsNumber() ? value.GetNumberAsDouble() : otherwise;
   }
 
@@ -140,7 +147,7 @@ class MaterialReader {
                                       const char* key, const std::array<float, 3>& otherwise) {
     const auto found = source.extensions.find(extension);
     if (found == source.extensions.end()) return otherwise;
-    const tinygltf::Value& value = found->second.Get(key);
+    const tinygltf::Value& value = GltfField(found->second, key);
     if (!value.IsArray() || value.ArrayLen() != 3) return otherwise;
     std::array<float, 3> color{};
     for (int c = 0; c < 3; ++c) {
@@ -156,7 +163,7 @@ class MaterialReader {
                        int channel) {
     const auto found = source.extensions.find(extension);
     if (found == source.extensions.end()) return 1.0F;
-    const tinygltf::Value& index = found->second.Get(key).Get("index");
+    const tinygltf::Value& index = GltfField(GltfField(found->second, key), "index");
     if (!index.IsInt()) return 1.0F;
     PLEINAIR_ASSIGN_OR_RETURN(const int image, PictureOf(index.GetNumberAsInt()));
     PLEINAIR_ASSIGN_OR_RETURN(const Image<std::uint8_t> picture, Picture(image));
@@ -175,8 +182,9 @@ class MaterialReader {
     MaterialLayers& layers = material->detail.layers;
     // KHR_materials_ior: normal reflectance ((n − 1) / (n + 1))². An index of 0 means 1.
     const double index = NumberOf(source, "KHR_materials_ior", "ior", kDefaultIor);
-    const double root = index > 1.0 ? (std::min(index, kMaxIor) - 1.0) / (std::min(index, kMaxIor) + 1.0)
-                                    : (index == 0.0 ? 1.0 : 0.0);
+    const double root = index > 1.0
+                            ? (std::min(index, kMaxIor) - 1.0) / (std::min(index, kMaxIor) + 1.0)
+                            : (index == 0.0 ? 1.0 : 0.0);
     PLEINAIR_ASSIGN_OR_RETURN(const float specular,
                               MeanOf(source, "KHR_materials_specular", "specularTexture", 3));
     const double strength =
@@ -191,9 +199,8 @@ class MaterialReader {
                               MeanOf(source, "KHR_materials_clearcoat", "clearcoatTexture", 0));
     layers.clearcoat =
         coat * Clamped(NumberOf(source, "KHR_materials_clearcoat", "clearcoatFactor", 0.0));
-    PLEINAIR_ASSIGN_OR_RETURN(
-        const float coat_roughness,
-        MeanOf(source, "KHR_materials_clearcoat", "clearcoatRoughnessTexture", 1));
+    PLEINAIR_ASSIGN_OR_RETURN(const float coat_roughness, MeanOf(source, "KHR_materials_clearcoat",
+                                                                 "clearcoatRoughnessTexture", 1));
     layers.clearcoat_roughness =
         coat_roughness *
         Clamped(NumberOf(source, "KHR_materials_clearcoat", "clearcoatRoughnessFactor", 0.0));
@@ -212,8 +219,7 @@ class MaterialReader {
     PLEINAIR_ASSIGN_OR_RETURN(
         const float mean, MeanOf(source, "KHR_materials_transmission", "transmissionTexture", 0));
     const double factor =
-        mean *
-        Clamped(NumberOf(source, "KHR_materials_transmission", "transmissionFactor", 0.0)) *
+        mean * Clamped(NumberOf(source, "KHR_materials_transmission", "transmissionFactor", 0.0)) *
         (1.0 - material->metallic);
     if (factor <= 0.0) return {};
     const auto& [r, g, b] = material->base_color;
@@ -256,7 +262,7 @@ class MaterialReader {
     double strength = 1.0;
     if (const auto found = source.extensions.find("KHR_materials_emissive_strength");
         found != source.extensions.end()) {
-      const tinygltf::Value& value = found->second.Get("emissiveStrength");
+      const tinygltf::Value& value = GltfField(found->second, "emissiveStrength");
       if (value.IsNumber()) strength = value.GetNumberAsDouble();
     }
     for (std::size_t c = 0; c < 3 && c < source.emissiveFactor.size(); ++c) {
@@ -280,8 +286,8 @@ class MaterialReader {
 
   static void NoteUnsupported(const tinygltf::Material& source, Material* material) {
     static const std::set<std::string> kSupported = {
-        "KHR_materials_emissive_strength", "KHR_materials_unlit",   "KHR_materials_ior",
-        "KHR_materials_specular",          "KHR_materials_sheen",   "KHR_materials_clearcoat",
+        "KHR_materials_emissive_strength", "KHR_materials_unlit", "KHR_materials_ior",
+        "KHR_materials_specular",          "KHR_materials_sheen", "KHR_materials_clearcoat",
         "KHR_materials_transmission"};
     for (const auto& [extension, value] : source.extensions) {
       if (!kSupported.contains(extension)) {

@@ -10,6 +10,7 @@
 
 #include "base/vector.h"
 #include "compositor/models/gltf_accessor.h"
+#include "compositor/models/gltf_compression.h"
 #include "compositor/models/gltf_error.h"
 #include "compositor/models/gltf_files.h"
 #include "compositor/models/gltf_materials.h"
@@ -31,7 +32,7 @@ const std::set<std::string>& KnownExtensions() {
       "KHR_materials_volume",    "KHR_materials_transmission",
       "KHR_materials_unlit",     "KHR_materials_emissive_strength",
       "KHR_mesh_quantization",   "KHR_lights_punctual",
-      "KHR_texture_transform"};
+      "KHR_texture_transform",   "EXT_texture_webp"};
   return known;
 }
 
@@ -45,8 +46,8 @@ bool KeepEncoded(tinygltf::Image* image, int index, std::string*, std::string*, 
 
 class GltfReader {
  public:
-  GltfReader(const std::string& content, const std::filesystem::path& file)
-      : content_(content), file_(file), where_(file.string()) {
+  GltfReader(std::string content, const std::filesystem::path& file)
+      : content_(WithoutGaps(std::move(content))), file_(file), where_(file.string()) {
     model_.file = file;
     model_.format = Model::Format::kGltf;
   }
@@ -54,11 +55,12 @@ class GltfReader {
   Result<Model> Read() {
     PLEINAIR_RETURN_IF_ERROR(Parse());
     for (const std::string& extension : gltf_.extensionsRequired) {
-      if (!KnownExtensions().contains(extension)) {
+      if (!KnownExtensions().contains(extension) && !CanDecompress(extension)) {
         return InputError(where_, "requires the glTF extension " + extension,
                           "export the model without it");
       }
     }
+    PLEINAIR_RETURN_IF_ERROR(DecompressGltf(where_, &gltf_));
     PLEINAIR_ASSIGN_OR_RETURN(uvs_, ReadGltfMaterials(gltf_, encoded_, file_, &model_));
     PLEINAIR_RETURN_IF_ERROR(ReadNodes());
     if (model_.meshes.empty()) return GltfError(where_, "its scene has no triangles");
@@ -304,7 +306,7 @@ class GltfReader {
 
   static double Extent(Vec3 v) { return std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z); }
 
-  const std::string& content_;
+  std::string content_;
   const std::filesystem::path& file_;
   std::string where_;
   tinygltf::Model gltf_;
@@ -324,8 +326,8 @@ bool LooksLikeGltf(std::string_view content) {
   return first != std::string_view::npos && content[first] == '{';
 }
 
-Result<Model> ParseGltf(const std::string& content, const std::filesystem::path& file) {
-  return GltfReader(content, file).Read();
+Result<Model> ParseGltf(std::string content, const std::filesystem::path& file) {
+  return GltfReader(std::move(content), file).Read();
 }
 
 }  // namespace pleinair::compositor

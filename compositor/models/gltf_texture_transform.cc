@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <limits>
 
+#include "compositor/models/gltf_value.h"
+
 namespace pleinair::compositor {
 namespace {
 
@@ -50,7 +52,7 @@ UvMap Transformed(int set, const tinygltf::ExtensionMap& extensions) {
   if (found == extensions.end()) return map;
   const tinygltf::Value& transform = found->second;
   const auto pair = [&](const char* key, std::array<double, 2>* numbers) {
-    const tinygltf::Value& value = transform.Get(key);
+    const tinygltf::Value& value = GltfField(transform, key);
     if (!value.IsArray() || value.ArrayLen() != 2) return;
     for (int i : {0, 1}) {
       if (value.Get(i).IsNumber()) (*numbers)[i] = value.Get(i).GetNumberAsDouble();
@@ -58,10 +60,10 @@ UvMap Transformed(int set, const tinygltf::ExtensionMap& extensions) {
   };
   pair("offset", &map.offset);
   pair("scale", &map.scale);
-  if (const auto& value = transform.Get("rotation"); value.IsNumber()) {
+  if (const auto& value = GltfField(transform, "rotation"); value.IsNumber()) {
     map.rotation_rad = value.GetNumberAsDouble();
   }
-  if (const auto& value = transform.Get("texCoord"); value.IsInt()) {
+  if (const auto& value = GltfField(transform, "texCoord"); value.IsInt()) {
     map.set = value.GetNumberAsInt();
   }
   return map;

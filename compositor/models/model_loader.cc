@@ -13,8 +13,8 @@
 namespace pleinair::compositor {
 namespace {
 
-Result<Model> ParseByContent(const std::string& content, const std::filesystem::path& file) {
-  if (LooksLikeGltf(content)) return ParseGltf(content, file);
+Result<Model> ParseByContent(std::string content, const std::filesystem::path& file) {
+  if (LooksLikeGltf(content)) return ParseGltf(std::move(content), file);
   return ParseObj(content, file, {ReadWholeFile, ReadTexture});
 }
 
@@ -22,8 +22,8 @@ Result<Model> ParseByContent(const std::string& content, const std::filesystem::
 
 Result<Model> LoadModel(const std::filesystem::path& file, const ModelOptions& options) {
   try {
-    PLEINAIR_ASSIGN_OR_RETURN(const std::string content, ReadWholeFile(file));
-    PLEINAIR_ASSIGN_OR_RETURN(Model model, ParseByContent(content, file));
+    PLEINAIR_ASSIGN_OR_RETURN(std::string content, ReadWholeFile(file));
+    PLEINAIR_ASSIGN_OR_RETURN(Model model, ParseByContent(std::move(content), file));
     ApplyFrame(options.frame, &model);
     ApplyNormals(options.normals, &model);
     if (model.meshes.empty()) {

@@ -9,6 +9,10 @@
 #include <optional>
 #include <string_view>
 
+#ifdef PLEINAIR_WEBP
+#include <webp/decode.h>
+#endif
+
 #include "compositor/models/model_files.h"
 #include "compositor/models/model_limits.h"
 
@@ -102,7 +106,41 @@ bool IsCutShort(std::span<const std::byte> bytes) {
   return content.rfind("\xFF\xD9") == std::string_view::npos;
 }
 
+#ifdef PLEINAIR_WEBP
+/// Returns whether the content is WebP: a RIFF file of that form.
+bool IsWebp(std::span<const std::byte> bytes) {
+  const std::string_view content(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  return content.size() >= 12 && content.starts_with("RIFF") && content.substr(8, 4) == "WEBP";
+}
+
+Result<Image<std::uint8_t>> DecodeWebp(std::span<const std::byte> bytes, const std::string& where) {
+  const auto* data = reinterpret_cast<const std::uint8_t*>(bytes.data());
+  WebPBitstreamFeatures features;
+  if (WebPGetFeatures(data, bytes.size(), &features) != VP8_STATUS_OK) {
+    return InputError(where, "the texture is cut short or damaged", "copy it again");
+  }
+  const int channels = features.has_alpha != 0 ? 4 : 3;
+  Image<std::uint8_t> image(features.width, features.height, channels);
+  const int stride = features.width * channels;
+  const auto* decoded =
+      channels == 4 ? WebPDecodeRGBAInto(data, bytes.size(), image.data(), image.size(), stride)
+                    : WebPDecodeRGBInto(data, bytes.size(), image.data(), image.size(), stride);
+  if (decoded == nullptr) {
+    return InputError(where, "the texture is cut short or damaged", "copy it again");
+  }
+  return image;
+}
+#endif
+
 }  // namespace
+
+bool DecodesWebp() {
+#ifdef PLEINAIR_WEBP
+  return true;
+#else
+  return false;
+#endif
+}
 
 Result<Image<std::uint8_t>> DecodeTexture(std::span<const std::byte> bytes,
                                           const std::string& where) {
@@ -116,11 +154,14 @@ Result<Image<std::uint8_t>> DecodeTexture(std::span<const std::byte> bytes,
                           std::to_string(stated->height) + " pixels",
                       kConvert);
   }
+#ifdef PLEINAIR_WEBP
+  if (IsWebp(bytes)) return DecodeWebp(bytes, where);
+#endif
   const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
   const int size = static_cast<int>(bytes.size());
   int width = 0, height = 0, channels = 0;
   if (stbi_info_from_memory(data, size, &width, &height, &channels) == 0) {
-    return InputError(where, "the texture is neither PNG nor JPEG, or damaged", kConvert);
+    return InputError(where, "the texture is no picture that is supported, or damaged", kConvert);
   }
   if (IsCutShort(bytes)) return InputError(where, "the texture is cut short", "copy it again");
   const int wanted = channels == 2 || channels == 4 ? 4 : 3;
