@@ -62,9 +62,11 @@ struct ModelReference {
   /// Metres of one unit of the file (scene/length_units.h). Unset: the file is in metres.
   std::optional<double> unit_m;
   ModelOrigin origin = ModelOrigin::kFile;
-  Vec3 translation_m;  ///< Of the model's origin, marker coordinates.
-  Vec3 rotation_deg;   ///< About the marker's x, then y, then z axis.
-  double scale = 1.0;  ///< Enlarges the model about its origin.
+  std::string animation;           ///< Of a glTF file: name or number; empty: its pose without one.
+  double animation_start_s = 0.0;  ///< The moment of the animation that is shown.
+  Vec3 translation_m;              ///< Of the model's origin, marker coordinates.
+  Vec3 rotation_deg;               ///< About the marker's x, then y, then z axis.
+  double scale = 1.0;              ///< Enlarges the model about its origin.
 };
 
 /// The user's description of the scene: everything that the compositor may use. Holds no ground

@@ -264,8 +264,9 @@ Result<void> ReadFrame(const Table& table, ModelReference* model) {
 }
 
 Result<ModelReference> ReadModel(const Table& table, const Table& scene, const char* key) {
-  PLEINAIR_RETURN_IF_ERROR(table.AllowOnly(
-      {"file", "shading", "up", "unit", "origin", "translation_m", "rotation_deg", "scale"}));
+  PLEINAIR_RETURN_IF_ERROR(
+      table.AllowOnly({"file", "shading", "up", "unit", "origin", "animation", "animation_start_s",
+                       "translation_m", "rotation_deg", "scale"}));
   ModelReference model;
   PLEINAIR_ASSIGN_OR_RETURN(const std::optional<std::string> file, table.Text("file"));
   if (!file || file->empty()) return scene.Fail(key, "has no file", "add file = \"name.obj\"");
@@ -281,6 +282,14 @@ Result<ModelReference> ReadModel(const Table& table, const Table& scene, const c
     }
   }
   PLEINAIR_RETURN_IF_ERROR(ReadFrame(table, &model));
+  PLEINAIR_ASSIGN_OR_RETURN(const std::optional<std::string> animation, table.Text("animation"));
+  PLEINAIR_ASSIGN_OR_RETURN(const std::optional<double> start_s, table.Number("animation_start_s"));
+  if (animation && animation->empty()) return table.Fail("animation", "names none");
+  if (start_s && !animation) {
+    return table.Fail("animation_start_s", "needs an animation", "add animation = \"NAME\"");
+  }
+  model.animation = animation.value_or("");
+  model.animation_start_s = start_s.value_or(0.0);
   PLEINAIR_RETURN_IF_ERROR(ReadPlacement(table, &model));
   PLEINAIR_ASSIGN_OR_RETURN(const std::optional<double> scale, table.Number("scale"));
   model.scale = scale.value_or(1.0);

@@ -8,6 +8,7 @@
 
 #include "compositor/light/light_solver.h"
 #include "compositor/light/scaled_sky.h"
+#include "compositor/models/gltf_pose.h"
 #include "compositor/models/polygon_model.h"
 #include "compositor/photometry/sky_fit.h"
 #include "devices/calibration/response_file.h"
@@ -47,7 +48,8 @@ Result<compositor::Model> ModelOf(const scene::ModelReference& reference, bool i
                                        reference.unit_m.value_or(1.0),
                                        reference.origin == scene::ModelOrigin::kBottomCentre};
     return compositor::LoadModel(reference.file,
-                                 {NormalsOf(reference.shading), is_phantom, frame});
+                                 {NormalsOf(reference.shading), is_phantom, frame},
+                                 {reference.animation, reference.animation_start_s});
   }
   const scene::DescribedSurface& surface = *reference.surface;
   return compositor::PolygonModel(surface.name, surface.polygons, surface.reflectance);

@@ -76,6 +76,10 @@ void AddModel(const char* table, const scene::ModelReference& model, const fs::p
     *text += fmt::format("unit = \"{}\"\n", scene::NameOfUnit(*model.unit_m));
   }
   if (model.origin == scene::ModelOrigin::kBottomCentre) *text += "origin = \"bottom centre\"\n";
+  if (!model.animation.empty()) {
+    *text += fmt::format("animation = {}\nanimation_start_s = {}\n", Quoted(model.animation),
+                         model.animation_start_s);
+  }
   *text += fmt::format("translation_m = {}\nrotation_deg = {}\nscale = {}\n",
                        Vector(model.translation_m), Vector(model.rotation_deg), model.scale);
 }

@@ -67,6 +67,8 @@ std::size_t ComponentCount(int type) {
       return 3;
     case TINYGLTF_TYPE_VEC4:
       return 4;
+    case TINYGLTF_TYPE_MAT4:
+      return 16;
     default:
       return 0;
   }
@@ -207,6 +209,10 @@ template Result<std::vector<std::array<float, 3>>> ReadGltfFloats<3>(const tinyg
 
 template Result<std::vector<std::array<float, 4>>> ReadGltfFloats<4>(const tinygltf::Model&, int,
                                                                      const std::string&);
+template Result<std::vector<std::array<float, 1>>> ReadGltfFloats<1>(const tinygltf::Model&, int,
+                                                                     const std::string&);
+template Result<std::vector<std::array<float, 16>>> ReadGltfFloats<16>(const tinygltf::Model&, int,
+                                                                       const std::string&);
 
 Result<std::vector<std::array<float, 4>>> ReadGltfColors(const tinygltf::Model& gltf, int accessor,
                                                          const std::string& where) {

@@ -15,6 +15,7 @@
 #include "compositor/models/gltf_files.h"
 #include "compositor/models/gltf_materials.h"
 #include "compositor/models/gltf_placement.h"
+#include "compositor/models/gltf_skin.h"
 #include "compositor/models/gltf_texture_transform.h"
 #include "compositor/models/model_limits.h"
 
@@ -46,8 +47,11 @@ bool KeepEncoded(tinygltf::Image* image, int index, std::string*, std::string*, 
 
 class GltfReader {
  public:
-  GltfReader(std::string content, const std::filesystem::path& file)
-      : content_(WithoutGaps(std::move(content))), file_(file), where_(file.string()) {
+  GltfReader(std::string content, const std::filesystem::path& file, const ModelPose& pose)
+      : content_(WithoutGaps(std::move(content))),
+        file_(file),
+        moment_(pose),
+        where_(file.string()) {
     model_.file = file;
     model_.format = Model::Format::kGltf;
   }
@@ -62,14 +66,30 @@ class GltfReader {
     }
     PLEINAIR_RETURN_IF_ERROR(DecompressGltf(where_, &gltf_));
     PLEINAIR_ASSIGN_OR_RETURN(uvs_, ReadGltfMaterials(gltf_, encoded_, file_, &model_));
+    PLEINAIR_ASSIGN_OR_RETURN(posed_.pose, PoseOf(gltf_, moment_, where_));
+    if (!gltf_.skins.empty()) posed_.placements = ScenePlacements(gltf_, posed_.pose);
     PLEINAIR_RETURN_IF_ERROR(ReadNodes());
     if (model_.meshes.empty()) return GltfError(where_, "its scene has no triangles");
     model_.written_by = gltf_.asset.generator.substr(0, kMaxNameLength);
-    if (!gltf_.animations.empty()) model_.unsupported_features.insert("animations");
+    if (!gltf_.animations.empty() && moment_.animation.empty()) {
+      model_.unsupported_features.insert("animations");
+    }
     return std::move(model_);
   }
 
  private:
+  /// The nodes at the moment that is shown.
+  struct Posed {
+    GltfPose pose;
+    std::vector<GltfPlacement> placements;  ///< By node; empty if there are no skins.
+  };
+
+  /// Shape of a node's mesh.
+  struct Shape {
+    const std::vector<float>& weights;  ///< Of its morph targets.
+    int skin;                           ///< -1 for none.
+  };
+
   Result<void> Parse() {
     tinygltf::TinyGLTF loader;
     loader.SetImageLoader(KeepEncoded, &encoded_);
@@ -134,14 +154,13 @@ class GltfReader {
       }
       seen[index] = true;
       const tinygltf::Node& node = gltf_.nodes[index];
-      const GltfPlacement placement = visit.placement * PlacementOf(node);
+      const GltfPlacement placement = visit.placement * posed_.pose.local[index];
       if (!IsFinite(placement)) {
         return GltfError(where_,
                          "the placement of node " + std::to_string(index) + " is not finite");
       }
       if (node.mesh >= 0) {
-        if (node.skin >= 0) model_.unsupported_features.insert("skins");
-        PLEINAIR_RETURN_IF_ERROR(ReadMesh(node.mesh, placement));
+        PLEINAIR_RETURN_IF_ERROR(ReadMesh(node, posed_.pose.weights[index], placement));
       }
       for (auto child = node.children.rbegin(); child != node.children.rend(); ++child) {
         to_visit.push_back({*child, placement});
@@ -150,24 +169,28 @@ class GltfReader {
     return {};
   }
 
-  Result<void> ReadMesh(int mesh, const GltfPlacement& placement) {
-    if (!IsGltfIndex(mesh, gltf_.meshes.size())) {
+  /// `weights`: of the node's morph targets; empty: its mesh's.
+  Result<void> ReadMesh(const tinygltf::Node& node, const std::vector<float>& weights,
+                        const GltfPlacement& placement) {
+    if (!IsGltfIndex(node.mesh, gltf_.meshes.size())) {
       return GltfError(where_, "refers to a mesh out of range");
     }
-    const tinygltf::Mesh& source = gltf_.meshes[static_cast<std::size_t>(mesh)];
+    const tinygltf::Mesh& source = gltf_.meshes[static_cast<std::size_t>(node.mesh)];
+    const std::vector<float> own(source.weights.begin(), source.weights.end());
     for (const tinygltf::Primitive& primitive : source.primitives) {
-      PLEINAIR_RETURN_IF_ERROR(ReadPrimitive(source.name, primitive, placement));
+      PLEINAIR_RETURN_IF_ERROR(ReadPrimitive(source.name, primitive,
+                                             {weights.empty() ? own : weights, node.skin},
+                                             node.skin >= 0 ? kUpright : placement));
     }
     return {};
   }
 
   Result<void> ReadPrimitive(const std::string& name, const tinygltf::Primitive& primitive,
-                             const GltfPlacement& placement) {
+                             const Shape& shape, const GltfPlacement& placement) {
     const int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
     const auto position = primitive.attributes.find("POSITION");
     if (mode < TINYGLTF_MODE_TRIANGLES) model_.unsupported_features.insert(kPointsAndLines);
     if (mode < TINYGLTF_MODE_TRIANGLES || position == primitive.attributes.end()) return {};
-    if (!primitive.targets.empty()) model_.unsupported_features.insert("morph targets");
     Mesh mesh;
     mesh.name = name;
     PLEINAIR_ASSIGN_OR_RETURN(mesh.positions, ReadGltfFloats<3>(gltf_, position->second, where_));
@@ -198,6 +221,11 @@ class GltfReader {
       }
     }
     PLEINAIR_RETURN_IF_ERROR(ReadDetails(primitive, uvs, &mesh));
+    PLEINAIR_RETURN_IF_ERROR(ApplyMorphTargets(gltf_, primitive, shape.weights, where_, &mesh));
+    if (shape.skin >= 0) {
+      PLEINAIR_RETURN_IF_ERROR(
+          ApplySkin(gltf_, primitive, shape.skin, posed_.placements, where_, &mesh));
+    }
     PLEINAIR_RETURN_IF_ERROR(ReadTriangles(primitive, mode, &mesh));
     PLEINAIR_RETURN_IF_ERROR(Place(placement, &mesh));
     if (!mesh.indices.empty()) model_.meshes.push_back(std::move(mesh));
@@ -308,11 +336,13 @@ class GltfReader {
 
   std::string content_;
   const std::filesystem::path& file_;
+  const ModelPose& moment_;
   std::string where_;
   tinygltf::Model gltf_;
   EncodedGltfImages encoded_;
   Model model_;
   std::vector<MaterialUvs> uvs_;  ///< By material.
+  Posed posed_;
   bool has_vertex_ = false;
   std::size_t vertex_count_ = 0;
   std::size_t triangle_count_ = 0;
@@ -326,8 +356,9 @@ bool LooksLikeGltf(std::string_view content) {
   return first != std::string_view::npos && content[first] == '{';
 }
 
-Result<Model> ParseGltf(std::string content, const std::filesystem::path& file) {
-  return GltfReader(std::move(content), file).Read();
+Result<Model> ParseGltf(std::string content, const std::filesystem::path& file,
+                        const ModelPose& pose) {
+  return GltfReader(std::move(content), file, pose).Read();
 }
 
 }  // namespace pleinair::compositor

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "base/error.h"
+#include "compositor/models/gltf_pose.h"
 #include "compositor/models/model.h"
 
 namespace pleinair::compositor {
@@ -22,15 +23,16 @@ bool LooksLikeGltf(std::string_view content);
 /// replaced by their mean. The textures of a material may use two sets of texture coordinates. With
 /// a third, metallic and roughness are replaced by their mean.
 ///
-/// KHR_mesh_quantization, and with their libraries EXT_meshopt_compression,
-/// KHR_draco_mesh_compression and EXT_texture_webp are read.
+/// Skins and morph targets have the shape of `pose`. KHR_mesh_quantization, and with their
+/// libraries EXT_meshopt_compression, KHR_draco_mesh_compression and EXT_texture_webp are read.
 ///
 /// Model::unsupported_features and Material::unsupported_features report unsupported content. It
-/// comprises other material extensions, skins, morph targets, animations, points and lines. Cameras
-/// and lights are ignored without a report.
+/// comprises other material extensions, animations of which none is chosen, points and lines.
+/// Cameras and lights are ignored without a report.
 ///
 /// Errors: cut short, references out of range, nodes that contain themselves, values that are not
 /// finite, textures missing or too large, an unknown required extension.
-Result<Model> ParseGltf(std::string content, const std::filesystem::path& file);
+Result<Model> ParseGltf(std::string content, const std::filesystem::path& file,
+                        const ModelPose& pose = {});
 
 }  // namespace pleinair::compositor

@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "compositor/models/alpha_cutout.h"
+#include "compositor/models/gltf_pose.h"
 #include "compositor/models/gltf_reader.h"
 #include "compositor/models/mesh_normals.h"
 #include "compositor/models/model.h"
@@ -13,17 +14,27 @@
 namespace pleinair::compositor {
 namespace {
 
-Result<Model> ParseByContent(std::string content, const std::filesystem::path& file) {
-  if (LooksLikeGltf(content)) return ParseGltf(std::move(content), file);
+Result<Model> ParseByContent(std::string content, const std::filesystem::path& file,
+                             const ModelPose& pose) {
+  if (LooksLikeGltf(content)) return ParseGltf(std::move(content), file, pose);
+  if (!pose.animation.empty()) {
+    return InputError(file.string(), "is an OBJ file, which has no animations",
+                      "leave animation out");
+  }
   return ParseObj(content, file, {ReadWholeFile, ReadTexture});
 }
 
 }  // namespace
 
 Result<Model> LoadModel(const std::filesystem::path& file, const ModelOptions& options) {
+  return LoadModel(file, options, ModelPose{});
+}
+
+Result<Model> LoadModel(const std::filesystem::path& file, const ModelOptions& options,
+                        const ModelPose& pose) {
   try {
     PLEINAIR_ASSIGN_OR_RETURN(std::string content, ReadWholeFile(file));
-    PLEINAIR_ASSIGN_OR_RETURN(Model model, ParseByContent(std::move(content), file));
+    PLEINAIR_ASSIGN_OR_RETURN(Model model, ParseByContent(std::move(content), file, pose));
     ApplyFrame(options.frame, &model);
     ApplyNormals(options.normals, &model);
     if (model.meshes.empty()) {

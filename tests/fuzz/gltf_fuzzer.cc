@@ -10,7 +10,10 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   namespace compositor = pleinair::compositor;
   const std::string content(reinterpret_cast<const char*>(data), size);
-  const auto parsed = compositor::ParseGltf(content, "/does/not/exist/fuzz.glb");
+  // The first animation, if there is one, at a moment between its key frames.
+  const bool animated = content.find("\"animations\"") != std::string::npos;
+  const auto parsed =
+      compositor::ParseGltf(content, "/does/not/exist/fuzz.glb", {animated ? "0" : "", 0.7});
   if (!parsed) return 0;
   for (const auto mode : {compositor::NormalsMode::kFromFile, compositor::NormalsMode::kFlat,
                           compositor::NormalsMode::kSmooth}) {
@@ -19,6 +22,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (const auto& mesh : model.meshes) {
       if (mesh.material < 0 || static_cast<std::size_t>(mesh.material) >= model.materials.size() ||
           (!mesh.uvs.empty() && mesh.uvs.size() != mesh.positions.size()) ||
+          (!mesh.details.empty() && mesh.details.size() != mesh.positions.size()) ||
           mesh.normals.size() != mesh.positions.size()) {
         __builtin_trap();
       }

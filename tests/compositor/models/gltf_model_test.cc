@@ -172,9 +172,8 @@ TEST(GltfModel, ReportsWhatItLeavesOut) {
   file.alpha = R"("extensions":{"KHR_materials_iridescence":{}},)";
   EXPECT_THAT(UnsupportedFeatures(*file.Load()), ElementsAre("KHR_materials_iridescence"));
   file = {};
-  file.node = R"({"mesh":0,"skin":0})";
-  file.extra = R"(,"skins":[{"joints":[0]}],"animations":[{"channels":[],"samplers":[]}])";
-  EXPECT_THAT(UnsupportedFeatures(*file.Load()), ElementsAre("animations", "skins"));
+  file.extra = R"(,"animations":[{"channels":[],"samplers":[]}])";
+  EXPECT_THAT(UnsupportedFeatures(*file.Load()), ElementsAre("animations"));
   // No primitive uses this material.
   file = {};
   file.color_texture = R"({"index":0}}},{"emissiveFactor":[1,1,1],"pbrMetallicRoughness":{)"

@@ -289,8 +289,8 @@ TEST(TriangleLayout, GivesEachTriangleAndVertexTexelsOfItsOwn) {
   EXPECT_EQ(glsl::TexelOfTriangle(4096), glm::ivec2(0, 1));
   EXPECT_EQ(glsl::TexelOfVertex(1364), glm::ivec2(4092, 0));
   EXPECT_EQ(glsl::TexelOfVertex(1365), glm::ivec2(0, 1));
-  EXPECT_EQ(glsl::TexelOfSurface(818), glm::ivec2(4090, 0));
-  EXPECT_EQ(glsl::TexelOfSurface(819), glm::ivec2(0, 1));
+  EXPECT_EQ(glsl::TexelOfSurface(511), glm::ivec2(4088, 0));
+  EXPECT_EQ(glsl::TexelOfSurface(512), glm::ivec2(0, 1));
 }
 
 TEST(TriangleLayout, ReportsTheSamplesThatShowATriangle) {

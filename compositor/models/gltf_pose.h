@@ -1,0 +1,45 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "compositor/models/gltf_placement.h"
+#include "compositor/models/model.h"
+
+namespace tinygltf {
+class Model;
+}
+
+namespace pleinair::compositor {
+
+/// A moment of an animation of a model's file.
+struct ModelPose {
+  std::string animation;  ///< Its name, or its number from 0 on; empty: the pose of the nodes.
+  double time_s = 0.0;    ///< Since its beginning. Before and after it, its first and last pose.
+};
+
+/// As LoadModel() without a pose, which shows the pose of a glTF file's nodes. Further errors: an
+/// animation that the file does not have, or key frames that are damaged.
+Result<Model> LoadModel(const std::filesystem::path& file, const ModelOptions& options,
+                        const ModelPose& pose);
+
+/// The nodes of a glTF file at one moment.
+struct GltfPose {
+  std::vector<GltfPlacement> local;         ///< By node: parent from node coordinates.
+  std::vector<std::vector<float>> weights;  ///< Of morph targets, by node; empty: its mesh's.
+};
+
+/// Evaluates an animation (glTF 2.0, 3.11 and appendix C): steps, lines with spherical
+/// interpolation of rotations, and cubic splines. Errors: no such animation; times that are not
+/// finite or do not increase; counts that do not match. `where` names the file.
+Result<GltfPose> PoseOf(const tinygltf::Model& gltf, const ModelPose& pose,
+                        const std::string& where);
+
+/// Placement of every node: scene from node coordinates. Nodes that contain themselves keep that of
+/// their own.
+std::vector<GltfPlacement> ScenePlacements(const tinygltf::Model& gltf, const GltfPose& pose);
+
+}  // namespace pleinair::compositor
