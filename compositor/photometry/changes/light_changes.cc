@@ -11,6 +11,7 @@
 #include "base/parallel_for.h"
 #include "base/quantile.h"
 #include "compositor/photometry/changes/light_equations.h"
+#include "compositor/photometry/changes/light_source.h"
 #include "compositor/photometry/changes/light_start.h"
 #include "compositor/photometry/changes/light_walk.h"
 #include "compositor/photometry/changes/probe_fit.h"
@@ -23,19 +24,17 @@ namespace {
 constexpr int kMaxRounds = 40;
 constexpr double kConverged = 0.002;
 // Part of the residual that a round leaves, while the step is larger than this and afterwards.
-constexpr double kCoarse = 1e-2, kSettled = 0.01, kFine = 1e-6;
+constexpr double kCoarse = 1e-2, kSettled = 0.01, kFine = 1e-4;
 // Relative change of the noise, likewise.
 constexpr double kNoiseConverged = 0.05;
+// Largest number of rounds of steady light, which need not explain changing light exactly.
+constexpr int kMaxSteadyRounds = 12;
 // The step at which a noise that is large, and the same for all probes, gives way to that of each.
 constexpr double kStarted = 0.05;
 // Rounds after which unmodelled shade is decided.
 constexpr std::array kShadeRounds{2, 6};
 // Independent probes of a frame: errors of neighbours are alike.
 constexpr double kIndependentProbes = 100.0;
-// Error of the modelled sun over sky that all probes have in common, relative.
-constexpr double kModelError = 0.05;
-// Largest standard deviation of the logarithm of sun over sky for a reading of this kind.
-constexpr double kToldBySurfaces = 0.1, kToldByColors = 0.3;
 // A change of sun over sky: by so much of the full sun, in so many frames in a row, each of which
 // steady light explains worse by this, the logarithm of the likelihoods' ratio. It is large, since
 // errors of the model are alike in many probes.
@@ -114,7 +113,9 @@ class Fit {
     }
     for (LogLight& light : now_.light) light = balance.array() + light.mean();
     UpdateFactors();
-    for (int i = 0; i < kMaxRounds && Iterate(kFine) > kConverged; ++i) {
+    double moved = kLargestStep;
+    for (int i = 0; i < kMaxSteadyRounds && moved > kConverged; ++i) {
+      moved = Iterate(moved > kSettled ? kCoarse : kFine);
     }
   }
 
@@ -140,7 +141,7 @@ class Fit {
       LightEquations equations(probes_, *walk_, reference_,
                                LightUnknowns(count, now_.planes.size()));
       equations.AddPriorNoise(sample);
-      const LightUnknowns error = equations.Solve(kFine);
+      const LightUnknowns error = equations.Solve(kCoarse);
       for (std::size_t t = 0; t < count; ++t) {
         const double ratio = RatioDirection().dot(error.light[t]);
         squares[t] += ratio * ratio / (ratio_variances_[t] * kSamples);
@@ -197,30 +198,14 @@ class Fit {
     });
   }
 
-  /// Product with a frame's light: log(sun over sky), mean of the channels.
-  static LogLight RatioDirection() {
-    LogLight direction;
-    direction << 1.0, 1.0, 1.0, -1.0, -1.0, -1.0;
-    return direction / 3.0;
-  }
-
   FrameLight ResultOf(std::size_t t) const {
     FrameLight frame;
     const LogLight& log = now_.light[t];
     frame.sun = {std::exp(log[0]), std::exp(log[1]), std::exp(log[2])};
     frame.sky = {std::exp(log[3]), std::exp(log[4]), std::exp(log[5])};
-    // With an error e of the common share, the same brightness means a sun of a + e (1 - a).
     frame.log_ratio_error =
-        std::hypot(std::sqrt(ratio_variances_[t]), kModelError * std::expm1(-frame.LogRatio()));
-    using Source = FrameLight::Source;
-    const double by_surfaces = ErrorBySurfaces(told_[t]);
-    if (told_[t].isZero()) {
-      frame.source = Source::kHeld;
-    } else if (by_surfaces < kToldBySurfaces) {
-      frame.source = Source::kSurfaces;
-    } else {
-      frame.source = frame.log_ratio_error < kToldByColors ? Source::kColors : Source::kTotalOnly;
-    }
+        std::hypot(std::sqrt(ratio_variances_[t]), CommonModelError(frame.LogRatio()));
+    frame.source = SourceOf(told_[t], frame.log_ratio_error);
     return frame;
   }
 
@@ -232,18 +217,6 @@ class Fit {
       if (!probe.empty()) noises.push_back(probe.noise());
     }
     if (!noises.empty()) noise_ = Median(noises);
-  }
-
-  /// Standard deviation of log(sun over sky) by single channels: surfaces in sun and shade.
-  static double ErrorBySurfaces(const LogLightMatrix& information) {
-    double precision = 0.0;
-    for (int c = 0; c < 3; ++c) {
-      const double a = information(c, c), b = information(c, 3 + c), d = information(3 + c, 3 + c);
-      // Inverse of the 2 × 2 block, times (1, -1) on both sides.
-      const double determinant = a * d - b * b, all = a + d + 2 * b;
-      if (all > 0.0) precision += determinant / all;
-    }
-    return precision > 0.0 ? 1.0 / std::sqrt(precision) : INFINITY;
   }
 
   std::vector<std::size_t> reference_;

@@ -13,8 +13,6 @@
 namespace pleinair::compositor {
 namespace {
 
-// Standard deviation of a channel's light from the channels' mean, logarithmic.
-constexpr double kChannelSpread = 0.1;
 // Standard deviation of the modelled sun over sky that the probes of a plane have in common,
 // logarithmic: the sky is not as modelled towards the plane's side. Then that of a single channel.
 constexpr double kPlaneSpread = 0.1, kPlaneColorSpread = 0.05;
@@ -55,17 +53,6 @@ struct Contribution {
   }
 };
 
-/// Precision of the channels about their mean, of sun and of sky, and of an unseen frame.
-LogLightMatrix FramePrior() {
-  LogLightMatrix prior = LogLightMatrix::Identity() * kAnchor;
-  Eigen::Matrix3d spread = Eigen::Matrix3d::Constant(-1.0 / 3.0);
-  spread.diagonal().array() += 1.0;
-  spread /= kChannelSpread * kChannelSpread;
-  prior.block<3, 3>(0, 0) += spread;
-  prior.block<3, 3>(3, 3) += spread;
-  return prior;
-}
-
 Eigen::Matrix3d PlanePrior() {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Constant(kPlaneSpread * kPlaneSpread);
   covariance.diagonal().array() += kPlaneColorSpread * kPlaneColorSpread;
@@ -102,7 +89,7 @@ LightEquations::LightEquations(const std::vector<ProbeFit>& probes, const LightW
     : probes_(probes),
       walk_(walk),
       reference_(reference),
-      frame_prior_(FramePrior()),
+      frame_prior_(ChannelPrior() + LogLightMatrix::Identity() * kAnchor),
       plane_prior_(PlanePrior()),
       right_(now.light.size(), now.planes.size()) {
   const Eigen::Matrix3d ratio = Eigen::Matrix3d::Identity() / (kReferenceSpread * kReferenceSpread);

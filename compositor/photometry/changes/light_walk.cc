@@ -19,6 +19,8 @@ constexpr double kFaintest = -4.0, kStrongest = 0.5;
 // Degrees of freedom of the parts' distributions.
 constexpr double kFreedom = 1.0;
 constexpr double kMinSeconds = 1e-3;
+// Standard deviation of a channel's light from the channels' mean, logarithmic.
+constexpr double kChannelSpread = 0.1;
 
 constexpr std::size_t kSun = 1;
 // Variances of a part that may change at will, and of one that does not change.
@@ -39,6 +41,16 @@ double ExpectedVariance(double square, double usual, double dimensions) {
 }
 
 }  // namespace
+
+LogLightMatrix ChannelPrior() {
+  LogLightMatrix prior = LogLightMatrix::Zero();
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Constant(-1.0 / 3.0);
+  spread.diagonal().array() += 1.0;
+  spread /= kChannelSpread * kChannelSpread;
+  prior.block<3, 3>(0, 0) = spread;
+  prior.block<3, 3>(3, 3) = spread;
+  return prior;
+}
 
 LightWalk::LightWalk(const std::vector<double>& seconds) {
   for (std::size_t i = 0; i + 1 < seconds.size(); ++i) {

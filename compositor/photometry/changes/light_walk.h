@@ -12,6 +12,9 @@ namespace pleinair::compositor {
 using LogLight = Eigen::Matrix<double, 6, 1>;
 using LogLightMatrix = Eigen::Matrix<double, 6, 6>;
 
+/// Precision of the channels about their mean, of sun and of sky.
+LogLightMatrix ChannelPrior();
+
 /// Random walk of the light from frame to frame. A step is the sum of four independent ones: of the
 /// exposure, which moves sun and sky of all channels alike; of the sun, as a share of the full sun,
 /// so that a faint one may fade to nothing; of the sky; and of each channel a little. Each has a

@@ -93,7 +93,11 @@ void ProbeFit::Linearize(const std::vector<LogLight>& factors, const PlaneError&
   right_.setZero();
   double mean = 0.0;
   const auto parts = Parts(plane_error);
-  for (ProbeReading& reading : readings_) {
+  terms_.resize(readings_.size());
+  for (std::size_t k = 0; k < readings_.size(); ++k) {
+    ProbeReading& reading = readings_[k];
+    ReadingTerm& term = terms_[k];
+    term.frame = reading.frame;
     const Lit lit = LitBy(parts, factors[reading.frame]);
     const double counts = independent[reading.frame] / (noise_ * noise_);
     mean += independent[reading.frame] / static_cast<double>(readings_.size());
@@ -101,9 +105,9 @@ void ProbeFit::Linearize(const std::vector<LogLight>& factors, const PlaneError&
       const double total = lit.sun[c] + lit.sky[c], share = lit.sun[c] / total;
       const double residual = reading.log_linear[c] - unknowns_[c] - std::log(total);
       const double weight = counts * StudentWeight(residual, noise_, kFreedom);
-      reading.sun_share[c] = static_cast<float>(share);
+      term.sun_share[c] = static_cast<float>(share);
       reading.residual[c] = static_cast<float>(residual);
-      reading.weight[c] = static_cast<float>(weight);
+      term.weight[c] = static_cast<float>(weight);
       matrix(c, c) += weight;
       matrix(c, 3) += weight * share;
       matrix(3, 3) += weight * share * share;
@@ -124,12 +128,13 @@ void ProbeFit::AddEquations(std::vector<LogLight>* right, PlaneError* plane_righ
                             std::vector<LogLightMatrix>* diagonal,
                             PlaneError* plane_diagonal) const {
   const Unknowns own = inverse_ * right_;
-  for (const ProbeReading& reading : readings_) {
-    LogLight& frame_right = (*right)[reading.frame];
-    LogLightMatrix& frame = (*diagonal)[reading.frame];
+  for (std::size_t k = 0; k < terms_.size(); ++k) {
+    const ReadingTerm& term = terms_[k];
+    LogLight& frame_right = (*right)[term.frame];
+    LogLightMatrix& frame = (*diagonal)[term.frame];
     for (int c = 0; c < 3; ++c) {
-      const double share = reading.sun_share[c], weight = reading.weight[c], rest = 1.0 - share;
-      const double pull = weight * (reading.residual[c] - own[c] - share * own[3]);
+      const double share = term.sun_share[c], weight = term.weight[c], rest = 1.0 - share;
+      const double pull = weight * (readings_[k].residual[c] - own[c] - share * own[3]);
       frame_right[c] += share * pull;
       frame_right[3 + c] += rest * pull;
       (*plane_right)[c] += share * pull;
@@ -145,12 +150,12 @@ void ProbeFit::AddEquations(std::vector<LogLight>* right, PlaneError* plane_righ
 ProbeFit::Unknowns ProbeFit::Gather(const std::vector<LogLight>& step,
                                     const PlaneError& plane_step) const {
   Unknowns sum = Unknowns::Zero();
-  for (const ProbeReading& reading : readings_) {
-    const LogLight& move = step[reading.frame];
+  for (const ReadingTerm& term : terms_) {
+    const LogLight& move = step[term.frame];
     for (int c = 0; c < 3; ++c) {
-      const double share = reading.sun_share[c];
+      const double share = term.sun_share[c];
       const double change =
-          reading.weight[c] * (share * (move[c] + plane_step[c]) + (1.0 - share) * move[3 + c]);
+          term.weight[c] * (share * (move[c] + plane_step[c]) + (1.0 - share) * move[3 + c]);
       sum[c] += change;
       sum[3] += share * change;
     }
@@ -161,13 +166,13 @@ ProbeFit::Unknowns ProbeFit::Gather(const std::vector<LogLight>& step,
 void ProbeFit::AddProduct(const std::vector<LogLight>& step, const PlaneError& plane_step,
                           std::vector<LogLight>* product, PlaneError* plane_product) const {
   const Unknowns own = inverse_ * Gather(step, plane_step);
-  for (const ProbeReading& reading : readings_) {
-    const LogLight& move = step[reading.frame];
-    LogLight& out = (*product)[reading.frame];
+  for (const ReadingTerm& term : terms_) {
+    const LogLight& move = step[term.frame];
+    LogLight& out = (*product)[term.frame];
     for (int c = 0; c < 3; ++c) {
-      const double share = reading.sun_share[c], rest = 1.0 - share;
-      const double pull = reading.weight[c] * (share * (move[c] + plane_step[c]) +
-                                               rest * move[3 + c] - own[c] - share * own[3]);
+      const double share = term.sun_share[c], rest = 1.0 - share;
+      const double pull = term.weight[c] * (share * (move[c] + plane_step[c]) + rest * move[3 + c] -
+                                            own[c] - share * own[3]);
       out[c] += share * pull;
       out[3 + c] += rest * pull;
       (*plane_product)[c] += share * pull;
@@ -180,13 +185,14 @@ void ProbeFit::PutNoise(std::uint32_t seed) {
   std::normal_distribution<double> normal;
   right_.setZero();
   right_[3] = std::sqrt(prior_) * normal(random);
-  for (ProbeReading& reading : readings_) {
+  for (std::size_t k = 0; k < terms_.size(); ++k) {
+    const ReadingTerm& term = terms_[k];
     for (int c = 0; c < 3; ++c) {
-      const double weight = std::max<double>(reading.weight[c], kDarkest);
+      const double weight = std::max<double>(term.weight[c], kDarkest);
       const double residual = normal(random) / std::sqrt(weight);
-      reading.residual[c] = static_cast<float>(residual);
+      readings_[k].residual[c] = static_cast<float>(residual);
       right_[c] += weight * residual;
-      right_[3] += weight * reading.sun_share[c] * residual;
+      right_[3] += weight * term.sun_share[c] * residual;
     }
   }
 }

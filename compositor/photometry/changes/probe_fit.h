@@ -17,12 +17,17 @@ namespace pleinair::compositor {
 /// green and blue.
 using PlaneError = Eigen::Vector3d;
 
-/// Brightness of a probe in one frame, and how the model divides and weighs it.
+/// Brightness of a probe in one frame, and its logarithm over the model.
 struct ProbeReading {
   std::uint32_t frame = 0;
-  std::array<float, 3> log_linear{};
+  std::array<float, 3> log_linear{}, residual{};
+};
+
+/// How the model divides and weighs a reading. Apart from it, since conjugate gradients run through
+/// all of these in every step.
+struct ReadingTerm {
+  std::uint32_t frame = 0;
   std::array<float, 3> sun_share{};  ///< Share of the sun in the modelled light.
-  std::array<float, 3> residual{};   ///< Logarithm of the reading over the model.
   std::array<float, 3> weight{};     ///< Inverse variance, less for outliers.
 };
 
@@ -87,6 +92,7 @@ class ProbeFit {
   ProbeLight light_;
   std::size_t plane_;
   std::vector<ProbeReading> readings_;
+  std::vector<ReadingTerm> terms_;  // Of each reading.
   Unknowns unknowns_ = Unknowns::Zero();
   bool shaded_ = false;
   double noise_ = 0.3;                                 // Relative.
