@@ -26,7 +26,6 @@ constexpr double kGrazing = 0.1;
 constexpr double kMinBand_px = 4.5;
 constexpr double kMargin_m = 0.02;  // Around the marker's white margin.
 constexpr int kMarkerProbesPerSide = 8;
-constexpr std::uint32_t kPaths = 256;
 // Steps per unit of a normal's coordinates. Probes with one rounded normal are lit together.
 constexpr double kNormalSteps = 8.0;
 
@@ -104,7 +103,7 @@ void LightProbes::AddFrame(ImageView<const std::uint8_t> rgb, const Transform<Ca
                            const scene::MarkerReflectance& marker, std::int64_t frame_index,
                            std::int64_t timestamp_ns) {
   ProbedFrame frame{frame_index, timestamp_ns, {}, {}};
-  if (frames_.empty() && marker.size_m > 0.0) AddMarker(marker);
+  if (probes_.empty() && marker.size_m > 0.0) AddMarker(marker);
   const int step = std::max(2, static_cast<int>(std::sqrt(static_cast<double>(rgb.width()) *
                                                           rgb.height() / kProbesPerFrame)));
   const int columns = rgb.width() / step, rows = rgb.height() / step;
@@ -155,6 +154,11 @@ void LightProbes::SetResponse(const CameraResponse& response) {
   response_ = response;
 }
 
+void LightProbes::ForgetFrames() {
+  frames_.clear();
+  readings_ = 0;
+}
+
 bool LightProbes::Keeps(std::uint32_t probe, std::size_t frame) const {
   // The marker has few.
   if (probes_[probe].surface < 0) return true;
@@ -180,8 +184,9 @@ void LightProbes::ThinOut() {
   }
 }
 
-std::vector<ProbeLight> LightOn(const std::vector<LightProbe>& probes, const PhantomRays& phantoms,
-                                const sky::SkyModel& day, const Mat3& marker_from_world) {
+std::vector<ProbeLight> LightOn(std::span<const LightProbe> probes, const PhantomRays& phantoms,
+                                const sky::SkyModel& day, const Mat3& marker_from_world,
+                                std::uint32_t paths) {
   std::vector<ProbeLight> lights(probes.size());
   const Vec3 to_sun = Normalized(marker_from_world * day.ToSun().xyz);
   const LinearRgb sun = day.SunNormalIrradiance();
@@ -207,8 +212,8 @@ std::vector<ProbeLight> LightOn(const std::vector<LightProbe>& probes, const Pha
       normal = normal + probes[i].normal;
     }
     normal = Normalized(normal);
-    const auto sky = phantoms.Ambient(points, normal, sky_alone, marker_from_world, kPaths);
-    const auto reflected = phantoms.Ambient(points, normal, sun_alone, marker_from_world, kPaths);
+    const auto sky = phantoms.Ambient(points, normal, sky_alone, marker_from_world, paths);
+    const auto reflected = phantoms.Ambient(points, normal, sun_alone, marker_from_world, paths);
     for (std::size_t k = 0; k < members.size(); ++k) {
       lights[members[k]].sky = sky[k];
       lights[members[k]].reflected = reflected[k];

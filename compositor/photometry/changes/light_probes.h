@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "base/camera_model.h"
@@ -54,6 +55,9 @@ class LightProbes {
   /// Decodes the readings, and those of frames to come, by another response.
   void SetResponse(const CameraResponse& response);
 
+  /// Forgets the frames, not the probes: for sessions without an end.
+  void ForgetFrames();
+
   const std::vector<LightProbe>& probes() const { return probes_; }
   const std::vector<ProbedFrame>& frames() const { return frames_; }
 
@@ -90,8 +94,10 @@ struct ProbeLight {
   bool IsSunlit() const { return direct.g > 0.0 && sun_visibility > 0.5; }
 };
 
-/// The light of `day` on each probe. `marker_from_world` has the heading in use.
-std::vector<ProbeLight> LightOn(const std::vector<LightProbe>& probes, const PhantomRays& phantoms,
-                                const sky::SkyModel& day, const Mat3& marker_from_world);
+/// The light of `day` on each probe, by `paths` paths of skylight and as many of reflected
+/// sunlight. `marker_from_world` has the heading in use.
+std::vector<ProbeLight> LightOn(std::span<const LightProbe> probes, const PhantomRays& phantoms,
+                                const sky::SkyModel& day, const Mat3& marker_from_world,
+                                std::uint32_t paths = 256);
 
 }  // namespace pleinair::compositor

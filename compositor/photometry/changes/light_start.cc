@@ -11,8 +11,6 @@
 namespace pleinair::compositor {
 namespace {
 
-// Probes of a kind that a frame needs to show its brightness, or to be a reference.
-constexpr std::size_t kMinProbes = 5;
 // Quantile of the frames' depths of shadow that counts as the full sun's, and how much less,
 // logarithmic, is still full sun.
 constexpr double kDeepest = 0.9, kAsDeep = 0.1;
@@ -64,14 +62,25 @@ double UsualShare(const std::vector<ProbeFit>& probes, bool in_sun) {
 
 }  // namespace
 
+std::optional<SunAndSky> SplitLight(double bright, double dark, double in_sun, double in_shade) {
+  const double contrast = in_sun - in_shade;
+  if (contrast <= kMinContrast) return std::nullopt;
+  SunAndSky split{};
+  split.sky = std::max((in_sun * dark - in_shade * bright) / contrast, kLeastLight * dark);
+  split.sun =
+      std::max(((1 - in_shade) * bright - (1 - in_sun) * dark) / contrast, kLeastLight * split.sky);
+  return split;
+}
+
 LightStart StartLight(const std::vector<ProbeFit>& probes, std::size_t frame_count,
                       std::vector<std::size_t> reference) {
   const auto brightness = [&](std::size_t min_probes, const auto& counts) {
     return FrameBrightness(probes, frame_count, min_probes, counts);
   };
   const auto total = brightness(1, [](const ProbeFit&) { return true; });
-  auto sunlit = brightness(kMinProbes, [](const ProbeFit& probe) { return probe.IsSunlit(); });
-  auto shaded = brightness(kMinProbes, [](const ProbeFit& probe) { return !probe.IsSunlit(); });
+  auto sunlit = brightness(kMinStartProbes, [](const ProbeFit& probe) { return probe.IsSunlit(); });
+  auto shaded =
+      brightness(kMinStartProbes, [](const ProbeFit& probe) { return !probe.IsSunlit(); });
   if (Shown(sunlit) == 0) sunlit = total;
   // Where most frames show too little shade, the brightest ones have the full sun.
   const bool compare = 2 * Shown(shaded) > frame_count;
@@ -80,7 +89,7 @@ LightStart StartLight(const std::vector<ProbeFit>& probes, std::size_t frame_cou
     for (const ProbeReading& reading : probe.readings()) ++readings[reading.frame];
   }
   const auto erase_sparse = [&] {
-    std::erase_if(reference, [&](std::size_t t) { return readings[t] < kMinProbes; });
+    std::erase_if(reference, [&](std::size_t t) { return readings[t] < kMinStartProbes; });
   };
   erase_sparse();
   if (reference.empty()) {
@@ -94,17 +103,19 @@ LightStart StartLight(const std::vector<ProbeFit>& probes, std::size_t frame_cou
   const double all = UsualOf(total, reference), lit = UsualOf(sunlit, reference),
                unlit = UsualOf(shaded, reference);
   const double in_sun = UsualShare(probes, true), in_shade = UsualShare(probes, false);
-  const double contrast = in_sun - in_shade;
   LightStart start{std::move(reference), std::vector<LogLight>(frame_count)};
   double ratio = 1.0;  // Of sun and sky. Frames that do not show both kinds have that of the last.
   for (std::size_t t = 0; t < frame_count; ++t) {
     const double whole = total[t] ? std::exp(*total[t] - all) : 1.0;
     double sky = whole / (in_sun * ratio + 1 - in_sun), sun = ratio * sky;
-    if (compare && sunlit[t] && shaded[t] && contrast > kMinContrast) {
-      const double bright = std::exp(*sunlit[t] - lit), dark = std::exp(*shaded[t] - unlit);
-      sky = std::max((in_sun * dark - in_shade * bright) / contrast, kLeastLight * dark);
-      sun = std::max(((1 - in_shade) * bright - (1 - in_sun) * dark) / contrast, kLeastLight * sky);
-      ratio = sun / sky;
+    if (compare && sunlit[t] && shaded[t]) {
+      const auto split =
+          SplitLight(std::exp(*sunlit[t] - lit), std::exp(*shaded[t] - unlit), in_sun, in_shade);
+      if (split) {
+        sky = split->sky;
+        sun = split->sun;
+        ratio = sun / sky;
+      }
     }
     start.light[t].head<3>().setConstant(std::log(sun));
     start.light[t].tail<3>().setConstant(std::log(sky));

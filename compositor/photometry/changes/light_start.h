@@ -3,6 +3,7 @@
 // Internal: between .cc files.
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "compositor/photometry/changes/light_walk.h"
@@ -16,6 +17,16 @@ struct LightStart {
   /// By frame: logarithms over the median of the reference frames.
   std::vector<LogLight> light;
 };
+
+/// Probes in the sun or in shade that a frame needs to show how bright they are.
+inline constexpr std::size_t kMinStartProbes = 5;
+
+/// Factors on sun and sky, from those on the light of probes in the sun and of probes in shade, and
+/// from the sun's shares in both. Nothing if the shares are too much alike.
+struct SunAndSky {
+  double sun, sky;
+};
+std::optional<SunAndSky> SplitLight(double bright, double dark, double in_sun, double in_shade);
 
 /// Estimates the sun and the sky of each frame from two brightnesses: that of the probes that the
 /// phantoms leave in the sun, and that of the others. A frame that does not show both has the ratio
