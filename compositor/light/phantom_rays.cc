@@ -57,15 +57,16 @@ class EmbreePhantomRays : public PhantomRays {
                           false};
   }
 
-  std::vector<LinearRgb> Ambient(std::span<const Point<Marker>> points, Vec3 normal,
-                                 const sky::SkyModel& daylight, const Mat3& marker_from_world,
+  using PhantomRays::Ambient;
+  std::vector<LinearRgb> Ambient(std::span<const FacingPoint> points, const sky::SkyModel& daylight,
+                                 const Mat3& marker_from_world,
                                  std::uint32_t paths) const override {
     const SunTransmittanceMap no_trees;
     const PhantomPaths tracer(scene_, bounces_, daylight, marker_from_world, no_trees);
-    const TangentFrame frame(Normalized(normal));
     std::vector<LinearRgb> ambient(points.size());
     ParallelFor(points.size(), threads_, [&](std::size_t i) {
-      ambient[i] = tracer.Irradiance(points[i].xyz, frame, paths);
+      const TangentFrame frame(Normalized(points[i].normal));
+      ambient[i] = tracer.Irradiance(points[i].point.xyz, frame, paths);
     });
     return ambient;
   }

@@ -26,6 +26,12 @@ struct PhantomSurface {
   bool is_foliage = false;
 };
 
+/// A place on a surface, and the way it faces: unit.
+struct FacingPoint {
+  Point<Marker> point;
+  Vec3 normal;
+};
+
 /// Ray queries against the phantoms of a scene. Virtual objects neither hide nor shade anything
 /// here, because the camera sees the place without them. Thread-safe.
 class PhantomRays {
@@ -41,13 +47,22 @@ class PhantomRays {
   /// The phantom that a line of sight hits first, or nothing. `direction` is a unit vector.
   virtual std::optional<PhantomSurface> First(Point<Marker> eye, Vec3 direction) const = 0;
 
-  /// Sky light and reflected light on small surfaces at `points` that all face `normal`: lux,
-  /// linear Rec.709. The result has one value per point, in order; each traces `paths` paths. Query
-  /// many points at once, because every call tabulates the sky anew.
-  virtual std::vector<LinearRgb> Ambient(std::span<const Point<Marker>> points, Vec3 normal,
+  /// Sky light and reflected light on small surfaces at `points`: lux, linear Rec.709. The result
+  /// has one value per point, in order; each traces `paths` paths. Query many points at once,
+  /// because every call tabulates the sky anew.
+  virtual std::vector<LinearRgb> Ambient(std::span<const FacingPoint> points,
                                          const sky::SkyModel& daylight,
                                          const Mat3& marker_from_world,
                                          std::uint32_t paths = kMarkerPaths) const = 0;
+  /// The same where all face `normal`.
+  std::vector<LinearRgb> Ambient(std::span<const Point<Marker>> points, Vec3 normal,
+                                 const sky::SkyModel& daylight, const Mat3& marker_from_world,
+                                 std::uint32_t paths = kMarkerPaths) const {
+    std::vector<FacingPoint> facing;
+    facing.reserve(points.size());
+    for (const Point<Marker>& point : points) facing.push_back({point, normal});
+    return Ambient(facing, daylight, marker_from_world, paths);
+  }
 
   static constexpr std::uint32_t kMarkerPaths = 2048;
 };

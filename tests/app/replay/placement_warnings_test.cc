@@ -29,7 +29,7 @@ class Ground : public compositor::PhantomRays {
     surface.point = {eye.xyz + direction * along};
     return surface;
   }
-  std::vector<LinearRgb> Ambient(std::span<const Point<Marker>>, Vec3, const sky::SkyModel&,
+  std::vector<LinearRgb> Ambient(std::span<const compositor::FacingPoint>, const sky::SkyModel&,
                                  const Mat3&, std::uint32_t) const override {
     return {};
   }

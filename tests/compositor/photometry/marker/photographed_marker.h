@@ -38,7 +38,7 @@ class HalfShadow : public PhantomRays {
   }
   bool IsUnoccluded(Point<Marker>, Vec3) const override { return true; }
   std::optional<PhantomSurface> First(Point<Marker>, Vec3) const override { return {}; }
-  std::vector<LinearRgb> Ambient(std::span<const Point<Marker>> points, Vec3, const sky::SkyModel&,
+  std::vector<LinearRgb> Ambient(std::span<const FacingPoint> points, const sky::SkyModel&,
                                  const Mat3&, std::uint32_t) const override {
     return std::vector<LinearRgb>(points.size(), {kAmbientLux, kAmbientLux, kAmbientLux});
   }
