@@ -62,6 +62,7 @@ std::string CommandText(const ReplayArguments& arguments) {
   const compositor::LightOverrides& given = light.overrides;
   if (given.max_patches) text += " --light-patches " + std::to_string(*given.max_patches);
   if (given.as_described) text += " --light stated";
+  if (given.fitted) text += " --light fitted";
   if (!light.match_look) text += " --look clean";
   if (light.hands_in_front) text += " --hands";
   if (given.sun_to_sky) text += fmt::format(" --sun-to-sky {}", *given.sun_to_sky);

@@ -20,10 +20,11 @@ void AddLightOptions(CLI::App& command, session::LightOptions& options) {
           "--light",
           [&options](const std::string& from) {
             options.overrides.as_described = from == "stated";
+            options.overrides.fitted = from == "fitted";
           },
           "measured: sun, sky and heading from the shadows that phantoms cast in the frames; "
-          "stated: from the scene")
-      ->check(CLI::IsMember({"measured", "stated"}))
+          "fitted: the same by one fit to all evidence, on trial; stated: from the scene")
+      ->check(CLI::IsMember({"measured", "fitted", "stated"}))
       ->default_str("measured");
   command.add_option("--light-cache", options.cache,
                      "Folder for daylight coefficients: traced once for a scene, then any moment's "

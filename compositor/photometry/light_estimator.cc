@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "compositor/light/scaled_sky.h"
+#include "compositor/photometry/estimate/fitted_light.h"
 #include "compositor/photometry/heading_from_shadows.h"
 #include "compositor/photometry/marker/marker_shade.h"
 #include "compositor/photometry/marker/marker_shadow_edge.h"
@@ -181,6 +182,19 @@ LightEstimate LightEstimator::Estimate(LightFilter* light_filter) const {
   if (overrides_.as_described) {
     UseDescribedLight(&found);
     return found;
+  }
+  if (overrides_.fitted && !overrides_.sun_to_sky) {
+    return EstimateByFit({.phantoms = *phantoms_,
+                          .samples = samples_,
+                          .meter = meter_,
+                          .scene = scene_,
+                          .heading_given = overrides_.heading_deg.has_value(),
+                          .time = time_,
+                          .sun = sun_,
+                          .day = *day_,
+                          .has_exposure = exposure_scale_ != LinearRgb{1.0, 1.0, 1.0},
+                          .dappled = 2 * dappled_ > samples_.frames()},
+                         light_filter);
   }
   const SunSkyRatio estimate = EstimateHeadingAndRatio(light_filter, &found);
   using Sun = SunSkyRatio::Sun;

@@ -7,6 +7,7 @@
 #include "base/camera_model.h"
 #include "base/camera_response.h"
 #include "base/image.h"
+#include "compositor/photometry/light_estimate.h"
 #include "compositor/photometry/light_filter.h"
 #include "compositor/photometry/light_overrides.h"
 #include "compositor/photometry/marker/marker_light_meter.h"
@@ -20,14 +21,6 @@
 #include "scene/scene_description.h"
 
 namespace pleinair::compositor {
-
-/// Light that was estimated from frames.
-struct LightEstimate {
-  MeasuredLight measured;
-  Radians heading;  ///< Heading of the marker.
-  /// A null source means that no frame gave an estimate: the scene description applies.
-  SkyState skies;
-};
 
 /// Estimates heading, sun and sky from the shadows that phantoms cast in frames. All frames share
 /// one sun position: that at the first frame's time.
@@ -71,7 +64,8 @@ class LightEstimator {
   MarkerLightMeter meter_;
   int dappled_ = 0;                                    // Frames in which leaves shade the marker.
   std::vector<MarkerShadowEdge> marker_shadow_edges_;  // One per frame with a divided marker.
-  LinearRgb exposure_scale_{1.0, 1.0, 1.0};  // Of the last frame with an exposure estimate.
+  // Of the last frame with an exposure estimate; 1 before the first.
+  LinearRgb exposure_scale_{1.0, 1.0, 1.0};
 };
 
 }  // namespace pleinair::compositor

@@ -13,6 +13,8 @@ struct LightOverrides {
   /// Uses the scene description. Only the exposure scale and unmodelled shadows on the ground are
   /// measured.
   bool as_described = false;
+  /// Estimates by one fit (estimate/fitted_light.h) where no ratio is given.
+  bool fitted = false;
   /// Sun's illuminance of level ground over the sky's; 0: no sun.
   std::optional<double> sun_to_sky;
   std::optional<double> heading_deg;  ///< Heading of the marker, as in the scene.

@@ -210,6 +210,48 @@ TEST(LightEstimator, KeepsTheMapUnderAGivenRatio) {
   EXPECT_GT(found.skies.source->ForSun(yard.model().ToSun(), 1.0)->SunNormalIrradiance().g, 0.0);
 }
 
+LightOverrides Fitted() {
+  LightOverrides overrides;
+  overrides.fitted = true;
+  return overrides;
+}
+
+TEST(FittedLight, TellsSunCloudsAndASunElsewhereApart) {
+  const LightEstimate sunny = Estimate(0.0, {.sky_radiance_scale = {1.5, 1.5, 1.5}}, Fitted());
+  EXPECT_EQ(sunny.measured.sun_source, MeasuredLight::Source::kMeasured);
+  EXPECT_FALSE(sunny.measured.sun_doubtful);
+  EXPECT_EQ(sunny.skies.marker_shade, (LinearRgb{1, 1, 1}));
+  ASSERT_TRUE(sunny.measured.sun_to_sky_error);
+  EXPECT_LT(*sunny.measured.sun_to_sky_error, 0.15);
+  const LightEstimate veiled =
+      Estimate(0.0, {.sky_radiance_scale = {3, 3, 3}, .sun_scale = 0.0}, Fitted());
+  EXPECT_EQ(veiled.measured.sun_source, MeasuredLight::Source::kMeasured);
+  ASSERT_NE(veiled.skies.source, nullptr);
+  EXPECT_EQ(veiled.skies.source->ForSun({{0, 0, 1}}, 1.0)->SunNormalIrradiance().g, 0.0);
+  const LightEstimate elsewhere = Estimate(60.0, {}, Fitted());
+  EXPECT_TRUE(elsewhere.measured.sun_doubtful);
+  EXPECT_EQ(elsewhere.measured.sun_source, MeasuredLight::Source::kDescription);
+  EXPECT_EQ(elsewhere.skies.source, nullptr);
+}
+
+TEST(FittedLight, ReadsTheSkyFromTheShadeOfATreeThatHidesAllEdges) {
+  const PhotographedYard& yard = Yard();
+  const auto tree = [&](Vec3 p) {
+    return yard.IsBesideShadowEdge(p) || std::sin(9 * p.x) * std::sin(11 * p.y + 3 * p.z) > 0.0;
+  };
+  const LightEstimate hazy =
+      Estimate(0.0, {.sky_radiance_scale = {2.5, 2.5, 2.5}, .shaded = tree}, Fitted());
+  EXPECT_FALSE(hazy.measured.sun_doubtful);
+  EXPECT_GT(hazy.measured.sun_to_sky_error, 0.1);
+  EXPECT_NE(hazy.skies.sun_transmittance, nullptr);
+}
+
+TEST(FittedLight, LeavesANightToTheWords) {
+  const LightEstimate found = Estimate(0.0, {.sun_scale = 0.0}, Fitted(), "2025-09-14T23:00:00Z");
+  EXPECT_EQ(found.skies.source, nullptr);
+  EXPECT_FALSE(found.measured.sun_doubtful);
+}
+
 /// Sky state under user-provided light `overrides`; determines the test for unmodelled shadows.
 SkyState GivenSkies(const LightOverrides& overrides, const PhotographedYard::Light& light) {
   const LightEstimate found = Estimate(0.0, light, overrides);

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <vector>
+
+#include "base/vector.h"
+#include "compositor/photometry/estimate/cell_model.h"
+#include "compositor/photometry/estimate/light_cell.h"
+#include "compositor/photometry/estimate/light_prior.h"
+#include "compositor/photometry/estimate/marker_exposure.h"
+
+namespace pleinair::compositor {
+
+/// What is given to the fit beside the cells.
+struct LightFitInput {
+  MarkerLight marker;
+  LinearRgb sun;  ///< On a surface that faces it: lux.
+  Vec3 up;        ///< Unit, marker coordinates.
+  LightPrior prior;
+};
+
+/// What the fit says of one cell that the phantoms leave in the sun.
+struct CellShade {
+  double shaded = 0.0;     ///< Probability that unmodelled things shade it or a part of it.
+  double level = 0.0;      ///< Brightness of its surface in the sun, as the samples have it.
+  double depth = 0.0;      ///< By how much it is darker in shade, logarithmic.
+  UnmodelledShade around;  ///< The most probable of its surface.
+};
+
+/// Sun and sky after the frames.
+struct LightPosterior {
+  double sun = 0.0, clouds = 0.0, elsewhere = 0.0;  ///< Probabilities, as in LightPrior.
+  /// The sky's radiance beside the sun over the model's, if the sun shines: the mean of its
+  /// logarithm, per channel, and one standard deviation of that.
+  LogRgb log_sky{};
+  double log_sky_error = 0.0;
+  std::vector<CellShade> shade;  ///< One per cell; zeros where phantoms shade it.
+  double shaded = 0.0;           ///< Share of these cells that are shaded.
+  /// Logarithm of the unshaded light on the marker over what its brightest part has; 0 or more.
+  double log_marker_shade = 0.0;
+  int edges = 0;           ///< Edges of phantoms' shadows that could show a contrast.
+  int edges_agreeing = 0;  ///< Those on which the sun's full contrast is probable.
+  int marker_steps = 0;    ///< Cells of the marker that a shadow probably divides.
+  int shaded_places = 0;   ///< Cells that are probably shaded.
+  double contrast = 0.0;   ///< Expected share of the edges with contrast.
+};
+
+/// Fits sun and sky to the cells: the maximum a posteriori, and its uncertainty.
+///
+/// Three hypotheses are compared by their evidence (the sun shines as modelled; clouds hide it; a
+/// sun shines from elsewhere), each the product over surfaces of the level evidence (LevelEvidence)
+/// with the cells' contrasts (cell_model.h). Under the sun, the sky's logarithmic scale, the kind
+/// of unmodelled shade and its share on each surface are integrated over grids; the marker binds
+/// the exposure scale.
+LightPosterior FitLight(const std::vector<LightCell>& cells, const LightFitInput& input);
+
+}  // namespace pleinair::compositor

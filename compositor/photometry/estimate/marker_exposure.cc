@@ -1,0 +1,64 @@
+#include "compositor/photometry/estimate/marker_exposure.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace pleinair::compositor {
+namespace {
+
+// One standard deviation of the marker's reflectances and of the model's light on it, logarithmic.
+constexpr double kWhiteError = 0.05;
+// Shares of the sun that stand for half-light.
+constexpr std::array kHalfLight{0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9};
+// Probability that a marker lies in the open whatever the share of shade around it, and the other
+// way round. Probability of a dappled marker in even sun, over that in shade.
+constexpr double kAnyway = 0.05, kDappledInSun = 0.2;
+
+double LogBrightness(LinearRgb light) {
+  return Brightness(LogRgb{std::log(light.r), std::log(light.g), std::log(light.b)});
+}
+
+}  // namespace
+
+MarkerExposure::MarkerExposure(const MarkerLight& marker, LinearRgb sky, LinearRgb sun,
+                               double shaded)
+    : known_(Luminance(marker.predicted) > 0.0), sky_(sky), sun_(sun) {
+  if (known_) predicted_ = LogBrightness(marker.predicted);
+  if (Luminance(sun) <= 0.0) return;
+  open_ = kAnyway + (1 - 2 * kAnyway) * (1 - shaded);
+  dark_ = 0.5 * (1 - open_);
+  half_ = 0.5 * (1 - open_) / kHalfLight.size();
+  if (marker.dappled) open_ *= kDappledInSun;
+}
+
+double MarkerExposure::Density(double e, double share) const {
+  const double z = (e - predicted_ + LogBrightness(sky_ + sun_ * share)) / kWhiteError;
+  return std::exp(-0.5 * z * z) / (kWhiteError * std::sqrt(2 * std::numbers::pi));
+}
+
+LevelFunction MarkerExposure::LogPrior() const {
+  LevelFunction prior;
+  if (!known_) {
+    prior.fill(-std::log(LevelGrid::kCount * LevelGrid::kStep));
+    return prior;
+  }
+  for (int i = 0; i < LevelGrid::kCount; ++i) {
+    const double e = LevelGrid::At(i);
+    double sum = open_ * Density(e, 1.0) + dark_ * Density(e, 0.0);
+    for (const double share : kHalfLight) sum += half_ * Density(e, share);
+    prior[i] = std::log(std::max(sum, 1e-300));
+  }
+  return prior;
+}
+
+double MarkerExposure::LogShade(double e) const {
+  if (!known_ || Luminance(sun_) <= 0.0) return 0.0;
+  double shaded = dark_ * Density(e, 0.0);
+  for (const double share : kHalfLight) shaded += half_ * Density(e, share);
+  if (open_ * Density(e, 1.0) > shaded) return 0.0;
+  return std::max(0.0, e - predicted_ + LogBrightness(sky_ + sun_));
+}
+
+}  // namespace pleinair::compositor
