@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 
+#include "compositor/light/light_solver_options.h"
+#include "compositor/light/patch_scene.h"
 #include "compositor/light/tessellation.h"
 #include "tests/compositor/light/light_scenes.h"
 
@@ -91,6 +94,44 @@ TEST(Tessellation, KeepsAreaAndLeavesNoGaps) {
     const bool border = (std::fabs(edge.first[0]) == 5.0F && edge.first[0] == edge.second[0]) ||
                         (std::fabs(edge.first[1]) == 5.0F && edge.first[1] == edge.second[1]);
     EXPECT_EQ(uses, border ? 1 : 2) << "a vertex lies on a neighbour's edge";
+  }
+}
+
+TEST(Tessellation, InterpolatesAllAttributesWhereverEdgesAreSplit) {
+  const auto box = BoxModel({-0.2, -0.2, 0.0}, {0.2, 0.2, 0.5}, {0.5F, 0.5F, 0.5F});
+  Mesh& mesh = box->meshes[0];
+  const auto uv_at = [](const std::array<float, 3>& p) { return std::array{p[0] + p[2], p[1]}; };
+  const auto detail_at = [](const std::array<float, 3>& p) {
+    return VertexDetail{{p[1], p[2] - p[0]}, {0.5F + p[0], 0.5F + p[1], p[2], 1.0F - p[2]}};
+  };
+  for (const auto& position : mesh.positions) {
+    mesh.uvs.push_back(uv_at(position));
+    mesh.details.push_back(detail_at(position));
+  }
+  // A low wall covers the lower part of the box.
+  const std::vector<PlacedModel> models{
+      Phantom(BoxModel({0.21, -1.0, 0.0}, {0.3, 1.0, 0.2}, {0.5F, 0.5F, 0.5F})), Object(box)};
+  std::vector<SurfaceMesh> surfaces = OrientedSurfaces(models[0], 0);
+  surfaces.push_back(OrientedSurfaces(models[1], 1).at(0));
+  Tessellate({}, &surfaces);
+  const auto scene = PatchScene::Create(models, LightSolverOptions{});
+  ASSERT_TRUE(scene) << scene.error().Message();
+  const SurfaceMesh& refined = scene->mesh_sides.back().mesh;
+  ASSERT_FALSE(refined.is_phantom);
+  // The light at the wall's edge needs more vertices than the tessellation has.
+  ASSERT_GT(refined.positions.size(), surfaces[1].positions.size());
+  ASSERT_EQ(refined.uvs.size(), refined.positions.size());
+  ASSERT_EQ(refined.details.size(), refined.positions.size());
+  for (std::size_t v = 0; v < refined.positions.size(); ++v) {
+    const auto uv = uv_at(refined.positions[v]);
+    const VertexDetail detail = detail_at(refined.positions[v]);
+    for (std::size_t i = 0; i < 2; ++i) {
+      EXPECT_NEAR(refined.uvs[v][i], uv[i], 1e-6);
+      EXPECT_NEAR(refined.details[v].uv[i], detail.uv[i], 1e-6);
+    }
+    for (std::size_t c = 0; c < 4; ++c) {
+      EXPECT_NEAR(refined.details[v].color[c], detail.color[c], 1e-6);
+    }
   }
 }
 
