@@ -6,7 +6,6 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <tuple>
 #include <utility>
 
 #include "compositor/models/obj_lines.h"
@@ -239,8 +238,8 @@ class MtlParser {
   }
 
   Result<void> FinishMetallicRoughness(Material* material) {
-    const auto& [roughness, metallic] =
-        std::tie(draft_->roughness_picture, draft_->metallic_picture);
+    const auto& roughness = draft_->roughness_picture;
+    const auto& metallic = draft_->metallic_picture;
     if (!roughness && !metallic) return {};
     const std::string key = "roughness " + (roughness ? roughness->name : "") + "\nmetal " +
                             (metallic ? metallic->name : "");

@@ -196,7 +196,10 @@ inline ObjectView Terrace::Trace(Weather weather, const CameraModel& camera, int
   // Where a pixel is sampled, relative to its centre; as in triangle_id.frag.
   constexpr double kSamples[4][2] = {
       {-0.125, -0.375}, {0.375, -0.125}, {-0.375, 0.125}, {0.125, 0.375}};
-  const auto [forward, right, down] = View{};
+  const View view_of_camera;
+  const auto& forward = view_of_camera.forward;
+  const auto& right = view_of_camera.right;
+  const auto& down = view_of_camera.down;
   const TerraceDay day = DayOf(weather);
   const LinearRgb exposure = ExposureOf(weather, day);
   std::vector<const Model*> objects;

@@ -182,7 +182,8 @@ TEST_F(SmallRecording, HandWrittenSceneLeansOnTheRecordingForPlaceAndMarker) {
   EXPECT_EQ(recording->scene->cloudiness, scene::Cloudiness::kOvercast);
   EXPECT_EQ(recording->scene->marker.size_m, 0.48);
   EXPECT_EQ(recording->scene->objects.size(), 1U);
-  EXPECT_TRUE(recording->scene->phantoms.empty());
+  ASSERT_EQ(recording->scene->phantoms.size(), 1U);
+  EXPECT_TRUE(recording->scene->phantoms[0].surface) << "assumed level ground";
 
   const std::filesystem::path other = folder_.Write("elsewhere/empty.toml", "turbidity = 4\n");
   const Result<Recording> overridden =
