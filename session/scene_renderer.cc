@@ -9,8 +9,8 @@
 #include "compositor/light/light_solver.h"
 #include "compositor/light/scaled_sky.h"
 #include "compositor/models/gltf_pose.h"
-#include "compositor/models/polygon_model.h"
 #include "compositor/photometry/sky_fit.h"
+#include "compositor/surfaces/polygon_model.h"
 #include "devices/calibration/response_file.h"
 #include "scene/marker_heading.h"
 #include "scene/marker_reflectance.h"
@@ -47,8 +47,7 @@ Result<compositor::Model> ModelOf(const scene::ModelReference& reference, bool i
     const compositor::ModelFrame frame{reference.up, marker.upright ? UpAxis::kY : UpAxis::kZ,
                                        reference.unit_m.value_or(1.0),
                                        reference.origin == scene::ModelOrigin::kBottomCentre};
-    return compositor::LoadModel(reference.file,
-                                 {NormalsOf(reference.shading), is_phantom, frame},
+    return compositor::LoadModel(reference.file, {NormalsOf(reference.shading), is_phantom, frame},
                                  {reference.animation, reference.animation_start_s});
   }
   const scene::DescribedSurface& surface = *reference.surface;

@@ -78,8 +78,8 @@ Result<std::vector<LightPicture>> MeasureLight(const std::string& recording) {
   ReplayOptions options;
   options.recording = recording;
   options.output = scratch.path() / "replay";
-  options.write_frames = true;
-  options.write_video = false;
+  options.write.frames = true;
+  options.write.video = false;
   PLEINAIR_RETURN_IF_ERROR(Replay(options));
   for (const GroundTruthImage& truth : truths) {
     PLEINAIR_ASSIGN_OR_RETURN(const ComparedPicture compared,

@@ -146,8 +146,8 @@ Result<void> Run(ReplayArguments& arguments) {
   PLEINAIR_RETURN_IF_ERROR(SetRange(arguments, &options.range));
   // A single picture is no video.
   const bool is_still = arguments.range.frame || devices::IsImageFile(options.recording);
-  options.write_frames = arguments.frames || is_still;
-  options.write_video = !arguments.no_video && !is_still;
+  options.write.frames = arguments.frames || is_still;
+  options.write.video = !arguments.no_video && !is_still;
   options.command = CommandText(arguments);
   PLEINAIR_ASSIGN_OR_RETURN(const ReplayReport report, Replay(options));
   if (arguments.json) {

@@ -14,6 +14,12 @@
 
 namespace pleinair::app {
 
+/// Images that a replay writes.
+struct WrittenImages {
+  bool frames = false;  ///< One file a frame.
+  bool video = true;
+};
+
 /// Input and options of a replay.
 struct ReplayOptions {
   std::filesystem::path recording;
@@ -21,8 +27,7 @@ struct ReplayOptions {
   std::optional<std::filesystem::path> scene;        ///< Replaces the recording's scene.
   std::optional<std::filesystem::path> calibration;  ///< Required for a plain video.
   devices::FrameRange range;                         ///< Part of the recording; all by default.
-  bool write_frames = false;
-  bool write_video = true;
+  WrittenImages write;
   std::set<exports::TrajectoryFormat> exports;  ///< Trajectory formats in addition to TUM.
   compositor::ComposerOptions composer;
   session::LightOptions light;

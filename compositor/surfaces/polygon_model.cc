@@ -1,4 +1,4 @@
-#include "compositor/models/polygon_model.h"
+#include "compositor/surfaces/polygon_model.h"
 
 #include <cstddef>
 #include <cstdint>

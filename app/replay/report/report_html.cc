@@ -173,7 +173,7 @@ std::string ResponseCard(const session::ResponseSummary& response) {
   if (response.source == Source::kSrgb || response.source == Source::kFilm) {
     const char* curve = response.source == Source::kSrgb ? "sRGB" : "by the film's tags";
     return Card(curve, response.IsShown() ? "camera response: the frames do not contradict it"
-                                           : "camera response: the frames do not show it");
+                                          : "camera response: the frames do not show it");
   }
   return Card(fmt::format("± {:.0f} %", 100 * response.log_error),
               "light by the camera response that the frames show; it is not sRGB");

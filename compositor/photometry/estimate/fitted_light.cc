@@ -83,8 +83,8 @@ void UseHeading(const FittedLightInput& input, const LightFilter& light_filter,
 /// What a sky that was seen beside the sun is called after: the evidence that told it.
 MeasuredLight::Source SourceOf(const LightPosterior& posterior) {
   using Source = MeasuredLight::Source;
-  if (posterior.edges_agreeing >= kMinEdges) return Source::kMeasured;
-  return posterior.marker_steps > 0 ? Source::kMarker : Source::kShade;
+  if (posterior.counted.edges_agreeing >= kMinEdges) return Source::kMeasured;
+  return posterior.counted.marker_steps > 0 ? Source::kMarker : Source::kShade;
 }
 
 /// The fit at one heading.
@@ -152,8 +152,8 @@ LightEstimate EstimateByFit(const FittedLightInput& input, LightFilter* light_fi
   UseHeading(input, with_heading, &found);
   const Fitted fitted = FitAt(input, found.heading);
   const LightPosterior& posterior = fitted.posterior;
-  light.evidence.edges = posterior.edges;
-  light.evidence.edges_with_contrast = posterior.contrast;
+  light.evidence.edges = posterior.counted.edges;
+  light.evidence.edges_with_contrast = posterior.counted.contrast;
   const bool shines = posterior.sun >= kSure;
   if (shines) {
     *light_filter = with_heading;
@@ -163,7 +163,7 @@ LightEstimate EstimateByFit(const FittedLightInput& input, LightFilter* light_fi
   }
   if (posterior.clouds >= kSure) {
     light.sun_source = Source::kMeasured;
-    light.evidence.edges_agreeing = posterior.edges - posterior.edges_agreeing;
+    light.evidence.edges_agreeing = posterior.counted.edges - posterior.counted.edges_agreeing;
     found.skies.source = OvercastSky();
     light_filter->AddClouds();
     light_filter->Keep(light, found.skies);
@@ -176,8 +176,9 @@ LightEstimate EstimateByFit(const FittedLightInput& input, LightFilter* light_fi
   LinearRgb scale{1, 1, 1};
   if (shines && posterior.log_sky_error < kTold * PriorOf(input.scene.cloudiness).log_sky_error) {
     light.sun_source = SourceOf(posterior);
-    light.evidence.edges_agreeing = posterior.edges_agreeing;
-    if (light.sun_source == Source::kShade) light.evidence.shade_places = posterior.shaded_places;
+    light.evidence.edges_agreeing = posterior.counted.edges_agreeing;
+    if (light.sun_source == Source::kShade)
+      light.evidence.shade_places = posterior.counted.shaded_places;
     light_filter->AddSun({Exp(posterior.log_sky), posterior.log_sky_error}, input.time);
   } else if (light_filter->ObservedClouds()) {
     return settle_as_before();

@@ -255,24 +255,24 @@ void Fit::Explain(double log_scale, const Kind& kind, double e, LightPosterior* 
             shaded, at.open + u, at.open - at.dark, shades[mix]};
         if (cell->shaded) {
           if (at.open - at.dark < kClearStep) continue;
-          ++found->edges;
-          found->edges_agreeing += open > 0.5 ? 1 : 0;
-          found->contrast += open;
+          ++found->counted.edges;
+          found->counted.edges_agreeing += open > 0.5 ? 1 : 0;
+          found->counted.contrast += open;
           contrasts.push_back({cell, states[kOpen]});
           continue;
         }
         if (cell->step) contrasts.push_back({cell, states[kDivided]});
         if (surface < 0) {
-          found->marker_steps += cell->step && shaded > 0.5 ? 1 : 0;
+          found->counted.marker_steps += cell->step && shaded > 0.5 ? 1 : 0;
         } else {
           ++sunny;
-          found->shaded_places += shaded > 0.5 ? 1 : 0;
+          found->counted.shaded_places += shaded > 0.5 ? 1 : 0;
         }
       }
     }
   }
-  if (found->edges > 0) found->contrast /= found->edges;
-  if (sunny > 0) found->shaded = static_cast<double>(found->shaded_places) / sunny;
+  if (found->counted.edges > 0) found->counted.contrast /= found->counted.edges;
+  if (sunny > 0) found->shaded = static_cast<double>(found->counted.shaded_places) / sunny;
   const LogRgb color = FitSkyColor(contrasts, log_scale);
   for (std::size_t c = 0; c < 3; ++c) found->log_sky[c] = log_scale + color[c];
 }

@@ -26,6 +26,15 @@ struct CellShade {
   UnmodelledShade around;  ///< The most probable of its surface.
 };
 
+/// Cells that told the light.
+struct CountedCells {
+  int edges = 0;           ///< Edges of phantoms' shadows that could show a contrast.
+  int edges_agreeing = 0;  ///< Those on which the sun's full contrast is probable.
+  int marker_steps = 0;    ///< Cells of the marker that a shadow probably divides.
+  int shaded_places = 0;   ///< Cells that are probably shaded.
+  double contrast = 0.0;   ///< Expected share of the edges with contrast.
+};
+
 /// Sun and sky after the frames.
 struct LightPosterior {
   double sun = 0.0, clouds = 0.0, elsewhere = 0.0;  ///< Probabilities, as in LightPrior.
@@ -37,11 +46,7 @@ struct LightPosterior {
   double shaded = 0.0;           ///< Share of these cells that are shaded.
   /// Logarithm of the unshaded light on the marker over what its brightest part has; 0 or more.
   double log_marker_shade = 0.0;
-  int edges = 0;           ///< Edges of phantoms' shadows that could show a contrast.
-  int edges_agreeing = 0;  ///< Those on which the sun's full contrast is probable.
-  int marker_steps = 0;    ///< Cells of the marker that a shadow probably divides.
-  int shaded_places = 0;   ///< Cells that are probably shaded.
-  double contrast = 0.0;   ///< Expected share of the edges with contrast.
+  CountedCells counted;
 };
 
 /// Fits sun and sky to the cells: the maximum a posteriori, and its uncertainty.

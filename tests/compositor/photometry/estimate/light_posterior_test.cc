@@ -33,7 +33,7 @@ TEST_F(FittedYard, EstimatesHowStrongTheSkyIsBesideTheSun) {
     const LightPosterior light = Fit(Look({.sky_radiance_scale = sky})).light;
     ExpectScale(light, sky);
     EXPECT_LT(light.log_sky_error, 0.15);
-    EXPECT_GT(light.edges_agreeing, 10);
+    EXPECT_GT(light.counted.edges_agreeing, 10);
     EXPECT_LT(light.shaded, 0.02);
   }
 }
@@ -89,7 +89,7 @@ TEST_F(FittedYard, CountsNoEdgeWhereNoPhantomCastsAShadow) {
   SurfaceSamples samples((*bare)->phantoms(), yard_->camera(), yard_->marker());
   samples.AddFrame(yard_->Photograph(0, {}).view(), PhotographedYard::Pose(0), {1, 1, 1});
   const LightPosterior light = Fit(samples, (*bare)->phantoms(), yard_->model()).light;
-  EXPECT_EQ(light.edges, 0);
+  EXPECT_EQ(light.counted.edges, 0);
 }
 
 TEST_F(FittedYard, DoubtsAnOvercastSkyWhereATreeShadesAllThePhantomsEdges) {
