@@ -18,8 +18,11 @@ namespace {
 constexpr double kFirstYear = 2024.866, kEndYear = 2030.0;
 constexpr double kBlackout_nT = 2000.0;  // 1.9: compasses are unreliable below.
 
+/// Years wholly outside of the validity are returned without their fraction: UtcTime may not reach
+/// their ends.
 double DecimalYear(UtcTime time) {
   const UtcTime::Civil date = time.ToCivil();
+  if (date.year + 1 <= kFirstYear || date.year >= kEndYear) return date.year;
   const auto start_of = [](int year) {
     return UtcTime::Parse(std::to_string(year) + "-01-01T00:00:00Z")->nanoseconds_since_1970();
   };

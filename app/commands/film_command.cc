@@ -99,8 +99,9 @@ std::string FilmText(const Described& film) {
   if (facts.clockwise_deg != 0) text += fmt::format(", turned by {} degrees", facts.clockwise_deg);
   if (facts.is_mirrored) text += ", mirrored";
   text += fmt::format(", {}, {}\n", facts.codec, facts.colors);
-  text += fmt::format("  {} frames in {:.3f} s, {:.4g} a second", *film.frames, facts.duration_s,
-                      film.frame_rate_hz);
+  text += fmt::format("  {} frames", *film.frames);
+  if (facts.duration_s > 0.0) text += fmt::format(" in {:.3f} s", facts.duration_s);
+  text += fmt::format(", {:.4g} a second", film.frame_rate_hz);
   constexpr double kPause = 1.5;  // Of the usual interval.
   if (facts.longest_interval_s * film.frame_rate_hz > kPause) {
     text += fmt::format("; a pause of {:.3f} s after frame {}", facts.longest_interval_s,

@@ -1,7 +1,6 @@
 #include "devices/films/display_turn.h"
 
 #include <algorithm>
-#include <cstddef>
 #include <cstdlib>
 
 namespace pleinair::devices {
@@ -53,7 +52,7 @@ Image<std::uint8_t> DisplayTurn::Turned(Image<std::uint8_t> stored) const {
 }
 
 int DisplayTurn::clockwise_deg() const {
-  if (a_ != 0) return a_ > 0 ? 0 : 180;
+  if (a_ != 0) return d_ > 0 ? 0 : 180;
   return b_ > 0 ? 90 : 270;
 }
 

@@ -29,7 +29,7 @@ class DisplayTurn {
   /// An image of any number of channels.
   Image<std::uint8_t> Turned(Image<std::uint8_t> stored) const;
 
-  /// Clockwise rotation before a possible mirroring, degrees: 0, 90, 180 or 270.
+  /// Clockwise rotation before a possible left-right mirroring, degrees: 0, 90, 180 or 270.
   int clockwise_deg() const;
   bool mirrored() const;
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <vector>
 
 #include "base/srgb.h"
 #include "devices/films/film_transfer.h"
@@ -24,10 +23,9 @@ constexpr int kTransferBt709 = 1, kTransferGamma22 = 4, kTransferGamma28 = 5, kT
 // 8.3 (matrix coefficients).
 constexpr int kMatrixRgb = 0, kMatrixBt709 = 1, kMatrixFcc = 4, kMatrixBt601Pal = 5,
               kMatrixBt601Ntsc = 6, kMatrix240M = 7, kMatrixBt2020 = 9;
-constexpr int kUnstated = 2;
 
-/// 0 and 3 are reserved in all three lists; writers that know nothing put 0 there.
-bool IsUnstated(int code) { return code == kUnstated || code == 3 || code < 0; }
+/// 2 is "unspecified"; 0 and 3 are reserved, but 0 is a matrix. Writers that know nothing put 0.
+bool IsUnstated(int code) { return code < 4 && code != 1; }
 
 constexpr std::array<double, 6> kBt709{0.640, 0.330, 0.300, 0.600, 0.150, 0.060};
 constexpr std::array<double, 6> kBt601Pal{0.640, 0.330, 0.290, 0.600, 0.150, 0.060};
@@ -74,7 +72,7 @@ struct Primaries {
 };
 
 std::optional<Primaries> PrimariesOf(int code) {
-  if (IsUnstated(code) || code == 0) return Primaries{kBt709, "unstated (BT.709)"};
+  if (IsUnstated(code)) return Primaries{kBt709, "unstated (BT.709)"};
   switch (code) {
     case kPrimariesBt709:
       return Primaries{kBt709, "BT.709"};
@@ -92,7 +90,7 @@ std::optional<Primaries> PrimariesOf(int code) {
 }
 
 std::optional<FilmTransfer> TransferOf(int code) {
-  if (IsUnstated(code) || code == 0) return FilmTransfer::kSrgb;
+  if (IsUnstated(code)) return FilmTransfer::kSrgb;
   switch (code) {
     case kTransferBt709:
     case kTransferBt601:
@@ -127,6 +125,8 @@ std::optional<int> MatrixOf(const FilmColorTags& tags, int rows) {
     case kMatrix240M:
     case kMatrixBt2020:
       return tags.matrix;
+    case kMatrixRgb:  // The pixels are not R'G'B'.
+      return std::nullopt;
     default:
       if (!IsUnstated(tags.matrix)) return std::nullopt;
       return rows >= kHdRows ? kMatrixBt709 : kMatrixBt601Ntsc;
@@ -264,23 +264,6 @@ double FilmColors::Encoded(double light) const {
 std::string FilmColors::Text() const {
   return std::string(TransferText(transfer)) + ", " + primaries_text_ + " colors, " +
          MatrixText(matrix) + ", " + (full_range ? "full" : "limited") + " range";
-}
-
-CameraResponse ResponseOf(FilmCurve curve) {
-  if (curve == FilmCurve::kSrgb) return {};
-  constexpr int kCodes = 256;
-  constexpr double kMinStep = 2e-6;  // CameraResponse resolves half of it.
-  std::vector<double> encoded, light;
-  for (int code = 0; code < kCodes; ++code) {
-    const double signal = code / 255.0;
-    const double each = curve == FilmCurve::kBt709     ? LightFromBt709(signal)
-                        : curve == FilmCurve::kGamma22 ? LightFromGamma(signal, 2.2)
-                                                       : LightFromGamma(signal, 2.8);
-    if (!light.empty() && each - light.back() < kMinStep) continue;
-    encoded.push_back(signal);
-    light.push_back(each);
-  }
-  return CameraResponse::FromSamples(encoded, {light, light, light}).value();
 }
 
 }  // namespace pleinair::devices

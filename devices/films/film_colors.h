@@ -16,7 +16,7 @@ struct FilmColorTags {
   int transfer = 2;
   int matrix = 2;
   bool full_range = false;
-  bool is_rgb = false;  ///< The pixels are R, G and B (or grey), without a matrix.
+  bool is_rgb = false;  ///< The pixels are R, G and B, without a matrix.
 };
 
 /// Curve from the film's signal to scene light.

@@ -8,17 +8,13 @@ extern "C" {
 #include <libavutil/pixdesc.h>
 }
 
+#include "devices/films/libav_input.h"
 #include "devices/images/image_file.h"
 
 namespace pleinair::devices {
 namespace {
 
 constexpr const char* kWholeCopy = "get a whole copy of it";
-
-// Containers of cameras, phones and editors. Playlists and lists of files are not among them: they
-// make libavformat open other files.
-constexpr const char* kContainers =
-    "mov,matroska,avi,mpegts,mpeg,mpegvideo,asf,flv,ogg,mxf,dv,nut,ivf,yuv4mpegpipe";
 
 std::optional<std::int64_t> Ticks(std::int64_t ticks) {
   return ticks == AV_NOPTS_VALUE ? std::nullopt : std::optional<std::int64_t>(ticks);
@@ -38,13 +34,15 @@ FilmColorTags TagsOf(const AVCodecParameters& coded) {
   return tags;
 }
 
-FilmColorTags Merged(FilmColorTags coded, const FilmColorTags& container) {
+/// `states_range`: whether the coded images state theirs.
+FilmColorTags Merged(FilmColorTags coded, bool states_range, const FilmColorTags& container) {
   const auto fill = [](int from, int* to) {
     if (*to == AVCOL_PRI_UNSPECIFIED) *to = from;
   };
   fill(container.primaries, &coded.primaries);
   fill(container.transfer, &coded.transfer);
   fill(container.matrix, &coded.matrix);
+  if (!states_range && container.full_range) coded.full_range = true;
   return coded;
 }
 
@@ -60,18 +58,9 @@ bool IsDolbyVisionAlone(const AVStream& track) {
 }  // namespace
 
 Result<FilmDemuxer> FilmDemuxer::Open(const std::filesystem::path& file) {
-  av_log_set_level(AV_LOG_QUIET);  // Our errors contain what the user needs.
   const std::string name = file.string();
-  AVDictionary* settings = nullptr;
-  av_dict_set(&settings, "protocol_whitelist", "file", 0);
-  av_dict_set(&settings, "format_whitelist", kContainers, 0);
-  AVFormatContext* opened = nullptr;
-  // With its scheme an absolute path cannot be mistaken for another protocol.
-  const std::string url = "file:" + std::filesystem::absolute(file).string();
-  const int open_code = avformat_open_input(&opened, url.c_str(), nullptr, &settings);
-  av_dict_free(&settings);
-  LibavPointer<AVFormatContext> format(opened);  // Null after a failure.
-  if (open_code < 0) {
+  LibavPointer<AVFormatContext> format = OpenLibavInput(file);
+  if (!format) {
     return InputError(name, "cannot be opened as a video: no known format, or cut short",
                       "get a whole copy of it, or convert it to MP4 with H.264");
   }
@@ -104,7 +93,8 @@ Result<FilmDemuxer> FilmDemuxer::Open(const std::filesystem::path& file) {
   }
   FilmColorTags colors = TagsOf(coded);
   if (static_cast<std::size_t>(track) < stated.size()) {
-    colors = Merged(colors, stated[static_cast<std::size_t>(track)]);
+    colors = Merged(colors, coded.color_range != AVCOL_RANGE_UNSPECIFIED,
+                    stated[static_cast<std::size_t>(track)]);
   }
   for (unsigned i = 0; i < format->nb_streams; ++i) {
     if (static_cast<int>(i) != track) format->streams[i]->discard = AVDISCARD_ALL;

@@ -15,7 +15,8 @@ namespace pleinair::devices {
 namespace {
 
 constexpr std::size_t kSignals = 65'536;
-// Finer than a tenth of an 8-bit step of the steepest curve, sRGB's 12.92 at black.
+// In steps of the square root of light, since powers of 1/2.2 and 1/2.8 are infinitely steep at
+// black. One step changes the signal by less than a tenth of an 8-bit step in every curve.
 constexpr std::size_t kLights = 65'536;
 constexpr std::size_t kRowsTogether = 32;
 
@@ -46,8 +47,8 @@ FilmPictures::FilmPictures(std::string name, FilmColors colors, DisplayTurn turn
   }
   encoded_.resize(kLights);
   for (std::size_t i = 0; i < kLights; ++i) {
-    const double light = static_cast<double>(i) / (kLights - 1);
-    encoded_[i] = static_cast<std::uint8_t>(std::lround(colors_.Encoded(light) * 255.0));
+    const double root = static_cast<double>(i) / (kLights - 1);
+    encoded_[i] = static_cast<std::uint8_t>(std::lround(colors_.Encoded(root * root) * 255.0));
   }
 }
 
@@ -92,7 +93,7 @@ RgbImage FilmPictures::ThroughLight(const std::vector<std::uint16_t>& signal, in
   RgbImage rgb(width, height, 3);
   std::array<float, 9> matrix{};
   std::copy(colors_.rec709_from_film.m.begin(), colors_.rec709_from_film.m.end(), matrix.begin());
-  constexpr auto kMaxLight = static_cast<float>(kLights - 1);
+  constexpr auto kMaxRoot = static_cast<float>(kLights - 1);
   const auto rows = static_cast<std::size_t>(height);
   ParallelFor((rows + kRowsTogether - 1) / kRowsTogether, 0, [&](std::size_t chunk) {
     const std::size_t begin = chunk * kRowsTogether * width * 3;
@@ -101,7 +102,7 @@ RgbImage FilmPictures::ThroughLight(const std::vector<std::uint16_t>& signal, in
       const float r = light_[signal[i]], g = light_[signal[i + 1]], b = light_[signal[i + 2]];
       for (std::size_t c = 0; c < 3; ++c) {
         const float light = matrix[3 * c] * r + matrix[3 * c + 1] * g + matrix[3 * c + 2] * b;
-        const float scaled = std::clamp(light, 0.0F, 1.0F) * kMaxLight + 0.5F;
+        const float scaled = std::sqrt(std::clamp(light, 0.0F, 1.0F)) * kMaxRoot + 0.5F;
         rgb.data()[i + c] = encoded_[static_cast<std::size_t>(scaled)];
       }
     }

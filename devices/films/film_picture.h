@@ -35,7 +35,7 @@ class FilmPictures {
   DisplayTurn turn_;
   LibavPointer<SwsContext> scaler_;
   std::vector<float> light_;           // Of 16-bit signals; empty without a conversion.
-  std::vector<std::uint8_t> encoded_;  // Of linear light in steps of 1 / (size - 1).
+  std::vector<std::uint8_t> encoded_;  // Of light; its square root in steps of 1 / (size - 1).
 };
 
 }  // namespace pleinair::devices

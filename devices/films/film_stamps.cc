@@ -1,7 +1,9 @@
 #include "devices/films/film_stamps.h"
 
 #include <algorithm>
-#include <cmath>
+#include <vector>
+
+#include "base/quantile.h"
 
 namespace pleinair::devices {
 namespace {
@@ -77,12 +79,11 @@ std::optional<FilmStamps::Entry> FilmStamps::EntryFor(std::size_t frame) const {
 
 std::optional<double> FilmStamps::TypicalRate_hz() const {
   if (ticks_.size() < 2) return std::nullopt;
-  std::vector<std::int64_t> intervals;
-  for (std::size_t i = 1; i < ticks_.size(); ++i) intervals.push_back(ticks_[i] - ticks_[i - 1]);
-  const auto middle = intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2);
-  std::nth_element(intervals.begin(), middle, intervals.end());
-  return static_cast<double>(time_base_.denominator) /
-         (static_cast<double>(*middle) * time_base_.numerator);
+  std::vector<double> intervals;
+  for (std::size_t i = 1; i < ticks_.size(); ++i)
+    intervals.push_back(static_cast<double>(ticks_[i] - ticks_[i - 1]));
+  // The lower median: in a short film, a pause is not what is typical.
+  return time_base_.denominator / (Quantile(intervals, 0.5) * time_base_.numerator);
 }
 
 double FilmStamps::start_s() const {

@@ -45,7 +45,19 @@ std::optional<double> TakeAngle(std::string_view* text, std::size_t degree_digit
   return negative ? -angle : angle;
 }
 
-std::string Trimmed(std::string text) {
+/// The first of some keys that is present.
+std::string First(const std::map<std::string, std::string>& metadata,
+                  std::initializer_list<const char*> keys) {
+  for (const char* key : keys) {
+    const auto at = metadata.find(key);
+    if (at != metadata.end() && !at->second.empty()) return CleanTag(at->second);
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string CleanTag(std::string text) {
   const auto end = std::find_if(text.rbegin(), text.rend(), [](char c) { return c > ' '; });
   text.erase(end.base(), text.end());
   for (char& c : text) {
@@ -54,22 +66,10 @@ std::string Trimmed(std::string text) {
   return text;
 }
 
-/// The first of some keys that is present.
-std::string First(const std::map<std::string, std::string>& metadata,
-                  std::initializer_list<const char*> keys) {
-  for (const char* key : keys) {
-    const auto at = metadata.find(key);
-    if (at != metadata.end() && !at->second.empty()) return Trimmed(at->second);
-  }
-  return {};
-}
-
-std::string Joined(const std::string& make, const std::string& model) {
+std::string CameraName(const std::string& make, const std::string& model) {
   if (make.empty() || model.starts_with(make)) return model;
   return model.empty() ? make : make + " " + model;
 }
-
-}  // namespace
 
 std::optional<FilmTags::Place> ParseIso6709(std::string_view text) {
   FilmTags::Place place;
@@ -124,8 +124,8 @@ FilmTags TagsOfFilm(const std::map<std::string, std::string>& metadata) {
     }
   }
   tags.camera =
-      Joined(First(metadata, {"com.apple.quicktime.make", "make", "com.android.manufacturer"}),
-             First(metadata, {"com.apple.quicktime.model", "model", "com.android.model"}));
+      CameraName(First(metadata, {"com.apple.quicktime.make", "make", "com.android.manufacturer"}),
+                 First(metadata, {"com.apple.quicktime.model", "model", "com.android.model"}));
   const std::string focal =
       First(metadata, {"com.apple.quicktime.camera.focal_length.35mm_equivalent"});
   double focal_mm = 0.0;

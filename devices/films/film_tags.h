@@ -41,6 +41,12 @@ std::optional<FilmTags::Place> ParseIso6709(std::string_view text);
 /// empty: another form, or no offset. Errors are not told apart.
 std::string Rfc3339OfTag(std::string_view text);
 
+/// A tag's text without trailing blanks; control characters become blanks.
+std::string CleanTag(std::string text);
+
+/// Maker and model of a camera, without saying the maker twice; empty without either.
+std::string CameraName(const std::string& make, const std::string& model);
+
 /// Understands the metadata of a film's container (QuickTime, MP4, Matroska), keys as libavformat
 /// names them.
 FilmTags TagsOfFilm(const std::map<std::string, std::string>& metadata);

@@ -29,7 +29,7 @@ double PqFromDisplay_cd_m2(double display_cd_m2);
 double LightFromPq(double signal);
 
 /// Scene light of HDR reference white, which becomes 1 of SDR: 75 % of the HLG signal and 203
-/// cd/m², 58 % of PQ (ITU-R BT.2408-4, Table 1).
+/// cd/m², 58 % of PQ (ITU-R BT.2408-7, Table 1).
 double HlgReferenceWhite();
 double PqReferenceWhite();
 

@@ -26,10 +26,7 @@ class Exif {
     if (entry == nullptr || entry->format != EXIF_FORMAT_ASCII) return {};
     std::string text(reinterpret_cast<const char*>(entry->data), entry->size);
     text.resize(std::min(text.size(), text.find('\0')));
-    for (char& c : text) {
-      if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = ' ';
-    }
-    return text;
+    return CleanTag(std::move(text));
   }
 
   std::optional<double> Number(ExifIfd group, int tag, unsigned index = 0) const {
@@ -122,9 +119,8 @@ FilmTags TagsOfPhoto(std::string_view jpeg) {
       tags.rejected.emplace_back("Its direction is no angle of a compass.");
     }
   }
-  const std::string make = exif.Text(EXIF_IFD_0, EXIF_TAG_MAKE);
-  const std::string model = exif.Text(EXIF_IFD_0, EXIF_TAG_MODEL);
-  tags.camera = model.starts_with(make) ? model : make + " " + model;
+  tags.camera =
+      CameraName(exif.Text(EXIF_IFD_0, EXIF_TAG_MAKE), exif.Text(EXIF_IFD_0, EXIF_TAG_MODEL));
   const auto focal = exif.Number(EXIF_IFD_EXIF, EXIF_TAG_FOCAL_LENGTH_IN_35MM_FILM);
   if (focal && *focal > 0.0) tags.focal_length_35mm = *focal;
   return tags;

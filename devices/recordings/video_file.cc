@@ -66,7 +66,7 @@ class VideoFile : public FrameSource {
     if (at_end_) return std::nullopt;
     // Until this frame is delivered: an error ends the stream.
     at_end_ = true;
-    if (next_ >= times_.frames) return std::nullopt;
+    if (std::max(next_, wanted_) >= times_.frames) return std::nullopt;
     SeekTowards(wanted_);
     for (;;) {
       PLEINAIR_ASSIGN_OR_RETURN(const AVFrame* const decoded, decoder_.Next());
@@ -81,6 +81,8 @@ class VideoFile : public FrameSource {
         next_ = 0;
         continue;
       }
+      // A film that was cut between key frames may begin behind the recording's last frame.
+      if (index >= times_.frames) return std::nullopt;
       PLEINAIR_ASSIGN_OR_RETURN(Frame frame, Deliver(*decoded, index));
       wanted_ = next_;
       sought_ = false;
@@ -104,10 +106,10 @@ class VideoFile : public FrameSource {
   }
 
  private:
-  // Goes to the key frame before a frame, if it lies ahead.
+  // Goes to the key frame before a frame of the recording, if it lies ahead.
   void SeekTowards(std::size_t frame) {
     if (frame <= next_ || !times_.stored.are_stored()) return;
-    const auto entry = times_.stored.EntryFor(std::min(frame, times_.frames - 1));
+    const auto entry = times_.stored.EntryFor(frame);
     if (!entry || entry->frame <= next_) return;
     sought_ = decoder_.Seek(entry->ticks);
     if (!sought_ && decoder_.SeekToStart()) next_ = 0;
@@ -221,8 +223,8 @@ Result<FrameTimes> TimesOf(const FilmDemuxer& film, FilmStamps stamps, const Vid
   return times;
 }
 
-/// The longest time between two frames.
-void FindPause(const FilmStamps& stamps, FilmFacts* facts) {
+/// Adds the duration and the longest time between two frames.
+void AddTimes(const FilmStamps& stamps, FilmFacts* facts) {
   if (!stamps.are_stored()) return;
   constexpr double kSecond_ns = 1e9;
   for (std::size_t i = 1; i < stamps.frames(); ++i) {
@@ -245,7 +247,7 @@ FilmFacts FactsOf(const FilmDemuxer& film, const FilmColors& colors, const Displ
   facts.is_mirrored = turn.mirrored();
   facts.sound_codec = film.sound_codec();
   facts.tags = TagsOfFilm(film.metadata());
-  FindPause(stamps, &facts);
+  AddTimes(stamps, &facts);
   return facts;
 }
 

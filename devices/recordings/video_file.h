@@ -41,7 +41,8 @@ struct OpenedVideo {
 /// applied, and its colors become Rec.709 primaries (FilmPictures).
 ///
 /// All packets are read once, without decoding, so that the number of frames is exact and a
-/// truncated or incomplete file is found here. Errors: no file, empty, format unknown to
+/// truncated MOV, MP4, Matroska or AVI file is found here. FLV and MPEG-TS do not state their
+/// lengths: there it is found if it ends within a frame. Errors: no file, empty, format unknown to
 /// libavformat, truncated, another size, a rotation by other than multiples of 90°, colors that are
 /// not supported, two frames at one time, no frame rate; from Next(): damage inside the video, or
 /// fewer frames than `frame_count`.

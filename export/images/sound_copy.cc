@@ -3,6 +3,8 @@
 #include <cmath>
 #include <utility>
 
+#include "devices/films/libav_input.h"
+
 namespace pleinair::exports {
 namespace {
 
@@ -25,14 +27,8 @@ SoundCopy::SoundCopy(LibavPointer<AVFormatContext> input, int from, AVFormatCont
 Result<std::unique_ptr<SoundCopy>> SoundCopy::Add(const CopiedSound& sound, AVFormatContext* output,
                                                   std::string* why_not) {
   const std::string name = sound.film.string();
-  AVDictionary* settings = nullptr;
-  av_dict_set(&settings, "protocol_whitelist", "file", 0);
-  AVFormatContext* opened = nullptr;
-  const std::string url = "file:" + std::filesystem::absolute(sound.film).string();
-  const int code = avformat_open_input(&opened, url.c_str(), nullptr, &settings);
-  av_dict_free(&settings);
-  LibavPointer<AVFormatContext> input(opened);
-  if (code < 0 || avformat_find_stream_info(input.get(), nullptr) < 0) {
+  LibavPointer<AVFormatContext> input = devices::OpenLibavInput(sound.film);
+  if (!input || avformat_find_stream_info(input.get(), nullptr) < 0) {
     return InputError(name, "changed while it was being replayed",
                       "replay it again when nothing writes to it");
   }
@@ -69,6 +65,9 @@ bool SoundCopy::ReadNext() {
     if (av_read_frame(input_.get(), next_.get()) < 0) return false;
     if (next_->stream_index != from_ || next_->pts == AV_NOPTS_VALUE) continue;
     if (next_->dts == AV_NOPTS_VALUE) next_->dts = next_->pts;
+    // The writer refuses times that do not increase; damaged files have such packets.
+    if (next_->pts < next_->dts || next_->dts <= last_ticks_) continue;
+    last_ticks_ = next_->dts;
     next_->pts -= start;
     next_->dts -= start;
     const auto heard = kPrimingPackets * static_cast<double>(next_->duration);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -33,6 +34,7 @@ class SoundCopy {
   double start_s_;
   devices::LibavPointer<AVPacket> next_;  // The packet to be written next.
   bool has_next_ = false;
+  std::int64_t last_ticks_ = INT64_MIN;  // Decoding time of the last packet that was read.
 };
 
 }  // namespace pleinair::exports

@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <cstdint>
 #include <string>
 
@@ -62,6 +61,11 @@ TEST(MagneticDeclination, IsRefusedWhereItIsNotKnown) {
   EXPECT_THAT(
       message(MagneticDeclination(50, 14, 0, UtcTime::Parse("2030-01-01T00:00:00Z").value())),
       HasSubstr("WMM2025 holds from"));
+  // In the first and the last year that a time can have.
+  for (const char* time : {"1678-01-01T00:00:00+01:00", "2261-06-01T00:00:00Z"}) {
+    EXPECT_THAT(message(MagneticDeclination(50, 14, 0, UtcTime::Parse(time).value())),
+                HasSubstr("WMM2025 holds from"));
+  }
   EXPECT_EQ(message(MagneticDeclination(50, 14, 0, UtcTime::Parse("2024-11-14T00:00:00Z").value())),
             "");
   // The north magnetic pole of 2026 lies near 86° N, 139° E.

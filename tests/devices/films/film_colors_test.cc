@@ -192,9 +192,13 @@ TEST(FilmColors, WhatCannotBeReadRightIsRefusedWithTheRemedy) {
   EXPECT_THAT(message({10, 1, 1}), HasSubstr("primaries number 10"));
   EXPECT_THAT(message({1, 9, 1}), HasSubstr("transfer curve number 9"));
   EXPECT_THAT(message({9, 16, 14}), HasSubstr("matrix number 14"));
-  EXPECT_THAT(message({9, 2, 9}), HasSubstr("no transfer curve"));
+  for (const int unstated : {0, 2, 3}) {
+    EXPECT_THAT(message({9, unstated, 9}), HasSubstr("no transfer curve"));
+  }
+  EXPECT_THAT(message({1, 1, 0}), HasSubstr("matrix number 0"));
   EXPECT_THAT(message({-5, 1 << 30, 1}), HasSubstr("convert it to BT.709"));
   EXPECT_EQ(message({2, 2, 2}), "");
+  EXPECT_EQ(message({0, 0, 3}), "");
 }
 
 }  // namespace

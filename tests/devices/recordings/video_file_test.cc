@@ -86,6 +86,19 @@ TEST_F(Video, FolderMayHaveAVideoInsteadOfPictures) {
   EXPECT_THAT(ReadAll(OpenRecording(folder_.path())), HasSubstr("only 40 of 41 frames"));
 }
 
+TEST_F(Video, EndsWhereItsDescriptionEndsIt) {
+  for (const std::size_t wanted : {9, 10, 20, 39, 40, 1000}) {
+    VideoMetadata known;
+    known.frame_count = 10;
+    auto video = OpenVideo(folder_ / "film.mp4", known);
+    ASSERT_TRUE(video) << video.error().Message();
+    video->frames->SkipTo(static_cast<std::int64_t>(wanted));
+    const Result<std::optional<Frame>> frame = video->frames->Next();
+    ASSERT_TRUE(frame) << frame.error().Message();
+    EXPECT_EQ(frame->has_value(), wanted == 9) << wanted;
+  }
+}
+
 TEST_F(Video, CutShortAnywhereIsNoticedAtOpening) {
   WriteVideo(folder_ / "film.avi", /*motion_jpeg=*/true);
   EXPECT_EQ(ReadAll(OpenRecording(folder_ / "film.avi", options_)), "40 frames");
@@ -103,8 +116,8 @@ TEST_F(Video, CutShortAnywhereIsNoticedAtOpening) {
   }
 }
 
-// A transport stream has no lengths to compare with, but its frames have ends.
-TEST_F(Video, CutShortInOtherContainersIsNoticedAtTheEnd) {
+// FLV states no length of the file, but those of its tags.
+TEST_F(Video, CutShortWithinAFrameOfFlvIsNoticed) {
   WriteVideo(folder_ / "film.flv");
   EXPECT_EQ(ReadAll(OpenRecording(folder_ / "film.flv", options_)), "40 frames");
   const std::string whole = tests::Content(folder_ / "film.flv");
