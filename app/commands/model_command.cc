@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <set>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -52,10 +53,19 @@ compositor::NormalsMode NormalsOf(const std::string& shading) {
                              : compositor::NormalsMode::kFromFile;
 }
 
+std::vector<std::string> UnitNames() {
+  std::vector<std::string> names;
+  for (const scene::LengthUnit& unit : scene::kLengthUnits) names.emplace_back(unit.name);
+  return names;
+}
+
 bool IsFolder(const std::string& output) {
   std::error_code ignored;
   return output.back() == '/' || fs::is_directory(output, ignored);
 }
+
+/// The sheet of a model in a folder of sheets.
+fs::path SheetName(const fs::path& model) { return model.filename().replace_extension(".png"); }
 
 /// The contact sheet of a model; empty if none is wanted.
 Result<fs::path> SheetOf(const fs::path& model, const ModelCommandOptions& options) {
@@ -66,11 +76,21 @@ Result<fs::path> SheetOf(const fs::path& model, const ModelCommandOptions& optio
   if (error) {
     return SystemError(options.output, "cannot be made: " + error.message(), "name another folder");
   }
-  return fs::path(options.output) / model.filename().replace_extension(".png");
+  return fs::path(options.output) / SheetName(model);
 }
 
 Result<void> CheckOutput(const ModelCommandOptions& options) {
-  if (options.output.empty() || IsFolder(options.output)) return {};
+  if (options.output.empty()) return {};
+  if (IsFolder(options.output)) {
+    std::set<fs::path> sheets;
+    for (const std::string& file : options.files) {
+      if (sheets.insert(SheetName(file)).second) continue;
+      return InputError(file,
+                        "would have the same sheet as another model, " + SheetName(file).string(),
+                        "name them in two calls, with two folders");
+    }
+    return {};
+  }
   if (options.files.size() > 1) {
     return InputError(options.output, "is one file for the sheets of several models",
                       "name a folder, with a slash at the end");
@@ -117,7 +137,7 @@ void AddModelCommand(CLI::App& app, CommandResult& result) {
       ->check(CLI::IsMember({"y", "z"}));
   command->add_option("--unit", options->unit, "Unit of the files")
       ->type_name("UNIT")
-      ->check(CLI::IsMember({"mm", "cm", "m", "in", "ft"}));
+      ->check(CLI::IsMember(UnitNames()));
   command->add_option("--shading", options->shading, "Normals, as in a scene")
       ->type_name("KIND")
       ->check(CLI::IsMember({"file", "flat", "smooth"}))

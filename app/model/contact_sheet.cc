@@ -16,6 +16,8 @@
 #include "base/utc_time.h"
 #include "compositor/light/light_solver.h"
 #include "compositor/photometry/sky_fit.h"
+#include "compositor/surfaces/polygon_model.h"
+#include "scene/described_surface.h"
 #include "scene/scene_description.h"
 
 namespace pleinair::app {
@@ -95,16 +97,10 @@ CameraModel Lens() {
 }
 
 compositor::PlacedModel Ground(double half) {
-  auto model = std::make_shared<compositor::Model>();
-  compositor::Material& material = model->materials.emplace_back();
-  material.base_color.fill(static_cast<float>(kGroundAlbedo));
-  compositor::Mesh& mesh = model->meshes.emplace_back();
-  const auto side = static_cast<float>(half);
-  mesh.positions = {{-side, -side, 0}, {side, -side, 0}, {side, side, 0}, {-side, side, 0}};
-  mesh.normals.assign(4, {0.0F, 0.0F, 1.0F});
-  mesh.indices = {0, 1, 2, 0, 2, 3};
+  const auto square = scene::GroundSurface(2 * half, 0.0, /*upright=*/false);
   compositor::PlacedModel placed;
-  placed.model = std::move(model);
+  placed.model = std::make_shared<const compositor::Model>(
+      compositor::PolygonModel("ground", square.polygons, LinearRgb{1, 1, 1} * kGroundAlbedo));
   placed.is_phantom = true;
   return placed;
 }

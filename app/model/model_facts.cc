@@ -10,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include "app/output/length_text.h"
 #include "scene/length_units.h"
 
 namespace pleinair::app {
@@ -53,7 +54,9 @@ std::string_view AlphaName(Material::Alpha alpha) {
 std::vector<std::pair<const char*, int>> TexturesOf(const Material& material) {
   std::vector<std::pair<const char*, int>> textures{
       {"color", material.base_color_texture},
-      {"roughness and metal", material.metallic_roughness_texture}};
+      {"roughness and metal", material.metallic_roughness_texture},
+      {"normals", material.detail.normal_map.texture},
+      {"emission", material.detail.emission.texture}};
   std::erase_if(textures, [](const auto& texture) { return texture.second < 0; });
   return textures;
 }
@@ -63,12 +66,6 @@ std::set<int> UsedMaterials(const Model& model) {
   std::set<int> used;
   for (const compositor::Mesh& mesh : model.meshes) used.insert(mesh.material);
   return used;
-}
-
-std::string LengthText(double length_m) {
-  if (length_m >= 1000.0) return fmt::format("{:.4g} km", length_m * 1e-3);
-  if (length_m < 0.1) return fmt::format("{:.4g} mm", length_m * 1e3);
-  return fmt::format("{:.4g} m", length_m);
 }
 
 void AddUnitNote(double size_m, std::vector<std::string>* notes) {

@@ -8,7 +8,9 @@
 #include <cstddef>
 #include <optional>
 
+#include "app/output/length_text.h"
 #include "base/frames.h"
+#include "base/quantile.h"
 #include "base/vector.h"
 #include "compositor/models/model_frame.h"
 
@@ -54,9 +56,7 @@ std::optional<double> ViewingDistance(const std::vector<session::Observation>& p
     distances_m.push_back(Norm(view.camera_from_marker.translation_m));
   }
   if (distances_m.empty()) return std::nullopt;
-  const auto middle = distances_m.begin() + static_cast<std::ptrdiff_t>(distances_m.size() / 2);
-  std::nth_element(distances_m.begin(), middle, distances_m.end());
-  return *middle;
+  return Median(std::move(distances_m));
 }
 
 /// Returns whether a box may be in view: no side of the view has all its corners outside.
@@ -121,12 +121,6 @@ bool IsHidden(const PlacedModel& placed, const RecordedViews& views,
   return in_view;
 }
 
-std::string Metres(double length_m) {
-  if (length_m >= 1000.0) return fmt::format("{:.1f} km", length_m * 1e-3);
-  if (length_m >= 0.1) return fmt::format("{:.1f} m", length_m);
-  return fmt::format("{:.2g} mm", length_m * 1e3);
-}
-
 class PlacementCheck {
  public:
   PlacementCheck(const scene::SceneDescription& scene, const RecordedViews& views,
@@ -148,20 +142,20 @@ class PlacementCheck {
       return fmt::format(
           "{} lies {} from the marker, as if in survey coordinates: add origin = \"bottom centre\" "
           "to its {}, or the opposite of its coordinates as translation_m.",
-          name, Metres(Norm(centre)), table);
+          name, LengthText(Norm(centre)), table);
     }
     if (viewing_m_ && !reference.unit_m && !placed.is_phantom) {
       if (size_m > kTooLarge * *viewing_m_) {
         return fmt::format(
             "{} is {} large, and the camera {} from the marker: if its file is in millimetres, add "
             "unit = \"mm\" to its {}; unit = \"m\" if it is meant so.",
-            name, Metres(size_m), Metres(*viewing_m_), table);
+            name, LengthText(size_m), LengthText(*viewing_m_), table);
       }
       if (size_m < kTooSmall * *viewing_m_) {
         return fmt::format(
             "{} is only {} large, and the camera {} from the marker: enlarge it by scale = 1000, "
             "or add unit = \"m\" to its {} if it is meant so.",
-            name, Metres(size_m), Metres(*viewing_m_), table);
+            name, LengthText(size_m), LengthText(*viewing_m_), table);
       }
     }
     if (!reference.up && !upright_ && reference.rotation_deg == Vec3{} && LooksYUp(*placed.model)) {
@@ -177,13 +171,12 @@ class PlacementCheck {
       return fmt::format(
           "{} is in view in no frame: it is {} large and its centre lies at [{:.2f}, {:.2f}, "
           "{:.2f}], {} from the marker. Check translation_m, scale and unit of its {}.",
-          name, Metres(size_m), centre.x, centre.y, centre.z, Metres(Norm(centre)), table);
+          name, LengthText(size_m), centre.x, centre.y, centre.z, LengthText(Norm(centre)), table);
     }
     if (phantoms_ != nullptr && IsHidden(placed, views_, *phantoms_)) {
       return fmt::format(
           "{} is hidden by phantoms in every frame: it lies inside or behind them, its lowest "
-          "point "
-          "{} above the marker. Move it by translation_m, or correct the phantoms.",
+          "point {} above the marker. Move it by translation_m, or correct the phantoms.",
           name, SignedHeight(corners));
     }
     return std::nullopt;
@@ -216,6 +209,7 @@ std::vector<std::string> PlacementWarnings(const std::vector<PlacedModel>& model
     const std::size_t count = scene.phantoms.size();
     const scene::ModelReference& reference =
         i < count ? scene.phantoms[i] : scene.objects[i - count];
+    if (reference.surface) continue;  // By its corners: it lies where the scene says.
     if (auto warning = check.Warning(models[i], reference)) warnings.push_back(*std::move(warning));
   }
   return warnings;

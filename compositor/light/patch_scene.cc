@@ -97,7 +97,7 @@ Result<void> CheckModel(const PlacedModel& placed) {
       return InputError(file, "mesh \"" + mesh.name + "\" has too few texture coordinates");
     }
     if (!mesh.details.empty() && mesh.details.size() != count) {
-      return InputError(file, "mesh \"" + mesh.name + "\" has too few colours of vertices");
+      return InputError(file, "mesh \"" + mesh.name + "\" has too few colors of vertices");
     }
     for (const std::uint32_t index : mesh.indices) {
       if (index >= count) return InputError(file, "mesh \"" + mesh.name + "\" lacks a vertex");

@@ -130,7 +130,9 @@ Result<std::vector<double>> Components(const tinygltf::Model& gltf, int index,
     for (std::size_t i = 0; i < accessor.count; ++i) copy(elements.At(i), &values[i * components]);
   } else if (accessor.sparse.isSparse) {
     // No bytes of the file back these zeros: a count alone must not allocate gigabytes.
-    if (accessor.count > kMaxVertices) return GltfError(where, "an accessor is too large");
+    if (accessor.count > std::min(kMaxVertices, kMaxVertices * 4 / components)) {
+      return GltfError(where, "an accessor is too large");
+    }
     values.resize(accessor.count * components);
   } else {
     return GltfError(where, "accessor " + std::to_string(index) + " has no data");
@@ -167,6 +169,11 @@ Result<std::vector<double>> Components(const tinygltf::Model& gltf, int index,
 }
 
 }  // namespace
+
+const tinygltf::Value& GltfField(const tinygltf::Value& value, const char* key) {
+  static const tinygltf::Value kNull;
+  return value.IsObject() ? value.Get(key) : kNull;
+}
 
 Result<std::span<const std::byte>> GltfViewBytes(const tinygltf::Model& gltf, int view_index,
                                                  const std::string& where) {

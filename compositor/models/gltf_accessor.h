@@ -11,9 +11,14 @@
 
 namespace tinygltf {
 class Model;
-}
+class Value;
+}  // namespace tinygltf
 
 namespace pleinair::compositor {
+
+/// A field of a JSON object; null where it is missing or `value` is no object, for which tinygltf's
+/// own access ends the program.
+const tinygltf::Value& GltfField(const tinygltf::Value& value, const char* key);
 
 /// The bytes of a buffer view. Errors: the view or its buffer does not exist or is too short.
 /// `where` names the file in all errors of this header.

@@ -15,8 +15,6 @@
 namespace pleinair::compositor {
 namespace {
 
-constexpr const char* kMeshopt = "EXT_meshopt_compression";
-constexpr const char* kDraco = "KHR_draco_mesh_compression";
 // glTF 2.0, 4.4: header of 12 bytes; chunks with 8 bytes of length and type.
 constexpr std::size_t kGlbHeader = 12, kChunkHeader = 8;
 
@@ -73,7 +71,7 @@ class Completion {
 
   /// What the object that closes lacks. Of two equal keys, the last counts.
   std::string_view Missing() const {
-    if (list_ == "buffers" && keys_.contains(kMeshopt) && !keys_.contains("uri")) {
+    if (list_ == "buffers" && keys_.contains(kMeshoptExtension) && !keys_.contains("uri")) {
       return R"(,"uri":"data:application/octet-stream;base64,AA==","byteLength":1)";
     }
     if (list_ == "accessors" && !keys_.contains("bufferView") && !keys_.contains("sparse")) {
@@ -100,11 +98,13 @@ class Completion {
 }  // namespace
 
 bool CanDecompress(const std::string& extension) {
-  return (extension == kMeshopt && kHasMeshopt) || (extension == kDraco && kHasDraco);
+  return (extension == kMeshoptExtension && kHasMeshopt) ||
+         (extension == kDracoExtension && kHasDraco);
 }
 
 std::string WithoutGaps(std::string content) {
-  if (content.find(kMeshopt) == std::string::npos && content.find(kDraco) == std::string::npos) {
+  if (content.find(kMeshoptExtension) == std::string::npos &&
+      content.find(kDracoExtension) == std::string::npos) {
     return content;
   }
   if (!content.starts_with("glTF")) return Completion(content).Complete();

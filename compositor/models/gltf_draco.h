@@ -12,6 +12,8 @@ class Model;
 
 namespace pleinair::compositor {
 
+inline constexpr const char* kDracoExtension = "KHR_draco_mesh_compression";
+
 #ifdef PLEINAIR_DRACO
 inline constexpr bool kHasDraco = true;
 #else

@@ -13,7 +13,6 @@
 #include "base/vector.h"
 #include "compositor/models/gltf_accessor.h"
 #include "compositor/models/gltf_error.h"
-#include "compositor/models/gltf_value.h"
 #include "compositor/models/texture_decoder.h"
 
 namespace pleinair::compositor {
@@ -30,6 +29,9 @@ constexpr double kPaneTransmittance = 0.92;
 // Ten times the sun's disc.
 constexpr double kMaxLuminance_cd_m2 = 2e10;
 constexpr const char* kThirdSet = "a third set of texture coordinates";
+// Of layers: their factors count alone.
+constexpr std::array<const char*, 4> kIgnoredTextures = {
+    "specularColorTexture", "sheenColorTexture", "sheenRoughnessTexture", "clearcoatNormalTexture"};
 
 class MaterialReader {
  public:
@@ -61,7 +63,8 @@ class MaterialReader {
       if (index.IsInt()) image = index.GetNumberAsInt();
     }
     if (IsGltfIndex(image, gltf_.images.size())) return image;
-    return GltfError(where_, "texture " + std::to_string(texture) + " has no PNG or JPEG picture");
+    return GltfError(where_,
+                     "texture " + std::to_string(texture) + " has no PNG, JPEG or WebP picture");
   }
 
   /// Decodes an image.
@@ -97,8 +100,6 @@ class MaterialReader {
   Result<void> ReadMaterial(const tinygltf::Material& source) {
     Material material;
     material.name = source.name;
-    material.coat.f0 = kDielectricF0;
-    material.coat.base_share = 1.0F - kDielectricF0;
     material.alpha = source.alphaMode == "MASK"    ? Material::Alpha::kCutout
                      : source.alphaMode == "BLEND" ? Material::Alpha::kBlended
                                                    : Material::Alpha::kIgnored;
@@ -160,24 +161,38 @@ class MaterialReader {
 
   /// Mean of a channel of an extension's texture, 0…1; 1 where it is missing.
   Result<float> MeanOf(const tinygltf::Material& source, const char* extension, const char* key,
-                       int channel) {
+                       std::size_t channel) {
     const auto found = source.extensions.find(extension);
     if (found == source.extensions.end()) return 1.0F;
     const tinygltf::Value& index = GltfField(GltfField(found->second, key), "index");
     if (!index.IsInt()) return 1.0F;
-    PLEINAIR_ASSIGN_OR_RETURN(const int image, PictureOf(index.GetNumberAsInt()));
-    PLEINAIR_ASSIGN_OR_RETURN(const Image<std::uint8_t> picture, Picture(image));
-    const int from = std::min(channel, picture.channels() - 1);
-    if (channel == 3 && picture.channels() < 4) return 1.0F;
-    double sum = 0.0;
-    for (int y = 0; y < picture.height(); ++y) {
-      for (int x = 0; x < picture.width(); ++x) sum += picture(x, y, from);
-    }
-    return static_cast<float>(sum / (255.0 * picture.width() * picture.height()));
+    PLEINAIR_ASSIGN_OR_RETURN(const auto means, MeansOf(index.GetNumberAsInt()));
+    return means[channel];
   }
 
-  /// KHR_materials_ior, _specular, _clearcoat, _sheen and _transmission. Textures are replaced by
-  /// their mean.
+  /// Mean of each channel of a texture, 0…1, without decoding sRGB. Alpha is 1 where it is missing.
+  Result<std::array<float, 4>> MeansOf(int texture) {
+    PLEINAIR_ASSIGN_OR_RETURN(const int image, PictureOf(texture));
+    if (const auto known = means_.find(image); known != means_.end()) return known->second;
+    PLEINAIR_ASSIGN_OR_RETURN(const Image<std::uint8_t> picture, Picture(image));
+    const int channels = std::min(picture.channels(), 4);
+    std::array<double, 4> sums{};
+    for (int y = 0; y < picture.height(); ++y) {
+      for (int x = 0; x < picture.width(); ++x) {
+        for (int c = 0; c < channels; ++c) sums[static_cast<std::size_t>(c)] += picture(x, y, c);
+      }
+    }
+    const double scale = 1.0 / (255.0 * picture.width() * picture.height());
+    std::array<float, 4> means{1.0F, 1.0F, 1.0F, 1.0F};
+    for (std::size_t c = 0; c < static_cast<std::size_t>(channels); ++c) {
+      means[c] = static_cast<float>(sums[c] * scale);
+    }
+    means_.emplace(image, means);
+    return means;
+  }
+
+  /// KHR_materials_ior, _specular, _clearcoat, _sheen and _transmission. Textures of numbers are
+  /// replaced by their mean, those of kIgnoredTextures left out.
   Result<void> ReadLayers(const tinygltf::Material& source, Material* material) {
     MaterialLayers& layers = material->detail.layers;
     // KHR_materials_ior: normal reflectance ((n − 1) / (n + 1))². An index of 0 means 1.
@@ -259,12 +274,8 @@ class MaterialReader {
   Result<void> ReadEmission(const tinygltf::Material& source, MaterialUvs* uvs,
                             Material* material) {
     Emission& emission = material->detail.emission;
-    double strength = 1.0;
-    if (const auto found = source.extensions.find("KHR_materials_emissive_strength");
-        found != source.extensions.end()) {
-      const tinygltf::Value& value = GltfField(found->second, "emissiveStrength");
-      if (value.IsNumber()) strength = value.GetNumberAsDouble();
-    }
+    const double strength =
+        NumberOf(source, "KHR_materials_emissive_strength", "emissiveStrength", 1.0);
     for (std::size_t c = 0; c < 3 && c < source.emissiveFactor.size(); ++c) {
       const double luminance = strength * source.emissiveFactor[c];
       if (luminance > 0.0) {  // Not NaN.
@@ -292,6 +303,10 @@ class MaterialReader {
     for (const auto& [extension, value] : source.extensions) {
       if (!kSupported.contains(extension)) {
         material->unsupported_features.insert(Shortened(extension));
+      } else if (std::ranges::any_of(kIgnoredTextures, [&](const char* key) {
+                   return GltfField(value, key).IsObject();
+                 })) {
+        material->unsupported_features.insert("textures of layers");
       }
     }
   }
@@ -306,25 +321,9 @@ class MaterialReader {
 
   /// Multiplies by a texture's mean: green is roughness, blue metallic, both linear.
   Result<void> TakeMean(int texture, Material* material) {
-    PLEINAIR_ASSIGN_OR_RETURN(const int image, PictureOf(texture));
-    auto known = means_.find(image);
-    if (known == means_.end()) {
-      PLEINAIR_ASSIGN_OR_RETURN(const Image<std::uint8_t> picture, Picture(image));
-      double roughness = 0.0, metallic = 0.0;
-      for (int y = 0; y < picture.height(); ++y) {
-        for (int x = 0; x < picture.width(); ++x) {
-          roughness += picture(x, y, 1);
-          metallic += picture(x, y, 2);
-        }
-      }
-      const double scale = 1.0 / (255.0 * picture.width() * picture.height());
-      known = means_
-                  .emplace(image, std::array{static_cast<float>(roughness * scale),
-                                             static_cast<float>(metallic * scale)})
-                  .first;
-    }
-    material->roughness *= known->second[0];
-    material->metallic *= known->second[1];
+    PLEINAIR_ASSIGN_OR_RETURN(const auto means, MeansOf(texture));
+    material->roughness *= means[1];
+    material->metallic *= means[2];
     return {};
   }
 
@@ -338,7 +337,7 @@ class MaterialReader {
   std::string where_;
   Model& model_;
   std::map<std::pair<int, bool>, int> textures_;  ///< Model's texture by glTF image and use.
-  std::map<int, std::array<float, 2>> means_;     ///< Mean roughness and metallic by glTF image.
+  std::map<int, std::array<float, 4>> means_;     ///< Of the channels, by glTF image.
   std::vector<MaterialUvs> uvs_;
 };
 

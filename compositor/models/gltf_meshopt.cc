@@ -5,10 +5,9 @@
 #include <cstddef>
 #include <span>
 #include <utility>
-#include <vector>
 
+#include "compositor/models/gltf_accessor.h"
 #include "compositor/models/gltf_error.h"
-#include "compositor/models/gltf_value.h"
 #include "compositor/models/model_limits.h"
 
 #ifdef PLEINAIR_MESHOPT
@@ -20,9 +19,6 @@ namespace pleinair::compositor {
 #ifdef PLEINAIR_MESHOPT
 namespace {
 
-constexpr const char* kExtension = "EXT_meshopt_compression";
-// Of all views together: what a file may hold uncompressed.
-constexpr std::size_t kMaxDecoded = kMaxFileBytes / 2;
 // The codecs shrink data at most 64-fold; a larger claim comes from a damaged file.
 constexpr std::size_t kMaxRatio = 128;
 
@@ -111,12 +107,12 @@ bool Decode(const Stream& stream, unsigned char* data) {
 Result<void> DecompressMeshopt(const std::string& where, tinygltf::Model* gltf) {
   std::size_t total = 0;
   for (std::size_t i = 0; i < gltf->bufferViews.size(); ++i) {
-    const auto found = gltf->bufferViews[i].extensions.find(kExtension);
+    const auto found = gltf->bufferViews[i].extensions.find(kMeshoptExtension);
     if (found == gltf->bufferViews[i].extensions.end()) continue;
     PLEINAIR_ASSIGN_OR_RETURN(const Stream stream, StreamOf(where, *gltf, i, found->second));
     if (!IsSound(stream)) return Damaged(where, i);
     total += stream.count * stream.stride;
-    if (total > kMaxDecoded) return GltfError(where, "is larger than 2 GiB when decompressed");
+    if (total > kMaxDecodedBytes) return GltfError(where, "is larger than 2 GiB when decompressed");
     tinygltf::Buffer buffer;
     buffer.data.resize(stream.count * stream.stride);
     if (!Decode(stream, buffer.data.data())) return Damaged(where, i);

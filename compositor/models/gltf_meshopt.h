@@ -12,6 +12,8 @@ class Model;
 
 namespace pleinair::compositor {
 
+inline constexpr const char* kMeshoptExtension = "EXT_meshopt_compression";
+
 #ifdef PLEINAIR_MESHOPT
 inline constexpr bool kHasMeshopt = true;
 #else

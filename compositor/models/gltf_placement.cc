@@ -44,4 +44,17 @@ bool IsFinite(const GltfPlacement& placement) {
   return std::isfinite(sum);
 }
 
+std::array<float, 3> TurnedNormal(const Mat3& m, const std::array<float, 3>& n) {
+  const Vec3 column0{m(0, 0), m(1, 0), m(2, 0)}, column1{m(0, 1), m(1, 1), m(2, 1)},
+      column2{m(0, 2), m(1, 2), m(2, 2)};
+  const double sign = Dot(Cross(column0, column1), column2) < 0.0 ? -1.0 : 1.0;
+  const Vec3 turned = (Cross(column1, column2) * n[0] + Cross(column2, column0) * n[1] +
+                       Cross(column0, column1) * n[2]) *
+                      sign;
+  const double norm = Norm(turned);
+  if (!(norm > 0.0) || !std::isfinite(norm)) return {};
+  return {static_cast<float>(turned.x / norm), static_cast<float>(turned.y / norm),
+          static_cast<float>(turned.z / norm)};
+}
+
 }  // namespace pleinair::compositor

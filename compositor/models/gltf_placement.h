@@ -2,6 +2,8 @@
 
 // Internal: between the .cc files of this module; not installed.
 
+#include <array>
+
 #include "base/vector.h"
 
 namespace tinygltf {
@@ -27,5 +29,9 @@ inline constexpr GltfPlacement kUpright{{{1, 0, 0, 0, 0, -1, 0, 1, 0}}, {}};
 GltfPlacement PlacementOf(const tinygltf::Node& node);
 
 bool IsFinite(const GltfPlacement& placement);
+
+/// Turns a unit normal by the inverse transpose of a matrix, whose cofactors suffice: the result
+/// has unit length. Zero where the matrix squeezes the surface to nothing.
+std::array<float, 3> TurnedNormal(const Mat3& m, const std::array<float, 3>& n);
 
 }  // namespace pleinair::compositor

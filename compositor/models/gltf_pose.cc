@@ -3,19 +3,19 @@
 #include <tiny_gltf.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <set>
+#include <string_view>
+#include <utility>
 
 #include "compositor/models/gltf_accessor.h"
 #include "compositor/models/gltf_error.h"
+#include "compositor/models/model_limits.h"
 
 namespace pleinair::compositor {
 namespace {
-
-// Morph targets of a mesh.
-constexpr std::size_t kMaxTargets = 4096;
 
 /// Keys of one channel: `width` numbers each, three times as many for splines.
 struct Keys {
@@ -188,7 +188,7 @@ Result<void> Apply(const tinygltf::Model& gltf, const tinygltf::Animation& anima
   std::size_t width = is_rotation ? 4 : 3;
   if (is_weights) {
     width = TargetsOf(gltf, gltf.nodes[index]);
-    if (width == 0 || width > kMaxTargets) return {};
+    if (width == 0 || width > kMaxMorphTargets) return {};  // ApplyMorphTargets() refuses them.
   }
   PLEINAIR_ASSIGN_OR_RETURN(
       const Keys keys, ReadKeys(gltf, animation.samplers[static_cast<std::size_t>(channel.sampler)],
@@ -225,9 +225,21 @@ Result<GltfPose> PoseOf(const tinygltf::Model& gltf, const ModelPose& pose,
   if (!pose.animation.empty()) {
     PLEINAIR_ASSIGN_OR_RETURN(const tinygltf::Animation* animation,
                               FindAnimation(gltf, pose.animation, where));
+    std::set<std::pair<int, std::string_view>> moved;
+    std::size_t weights = 0;
     for (const tinygltf::AnimationChannel& channel : animation->channels) {
+      const int node = channel.target_node;
+      if (node >= 0 && !moved.emplace(node, channel.target_path).second) {
+        return GltfError(where, "an animation moves one property twice");
+      }
       PLEINAIR_RETURN_IF_ERROR(
           Apply(gltf, *animation, channel, pose.time_s, where, &nodes, &result));
+      if (node < 0 || channel.target_path != "weights") continue;
+      // Nodes may share a mesh and its targets, so few bytes of the file can ask for many weights.
+      weights += result.weights[static_cast<std::size_t>(node)].size();
+      if (weights > kMaxVertices) {
+        return GltfError(where, "an animation has more than 20 million weights");
+      }
     }
   }
   result.local.reserve(nodes.size());

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,7 +33,8 @@ struct GltfPose {
 
 /// Evaluates an animation (glTF 2.0, 3.11 and appendix C): steps, lines with spherical
 /// interpolation of rotations, and cubic splines. Errors: no such animation; times that are not
-/// finite or do not increase; counts that do not match. `where` names the file.
+/// finite or do not increase; counts that do not match; a property that moves twice. `where` names
+/// the file.
 Result<GltfPose> PoseOf(const tinygltf::Model& gltf, const ModelPose& pose,
                         const std::string& where);
 

@@ -252,7 +252,7 @@ class GltfReader {
         color != primitive.attributes.end()) {
       PLEINAIR_ASSIGN_OR_RETURN(const auto colors, ReadGltfColors(gltf_, color->second, where_));
       if (colors.size() != vertices) {
-        return GltfError(where_, "a mesh has more or fewer colours than positions");
+        return GltfError(where_, "a mesh has more or fewer colors than positions");
       }
       mesh->details.resize(vertices);
       for (std::size_t i = 0; i < vertices; ++i) mesh->details[i].color = colors[i];
@@ -312,18 +312,10 @@ class GltfReader {
       p = {static_cast<float>(placed.x), static_cast<float>(placed.y),
            static_cast<float>(placed.z)};
     }
+    for (auto& n : mesh->normals) n = TurnedNormal(placement.linear, n);
     const auto& m = placement.linear.m;
     const Vec3 column0{m[0], m[3], m[6]}, column1{m[1], m[4], m[7]}, column2{m[2], m[5], m[8]};
     const bool mirrored = Dot(Cross(column0, column1), column2) < 0.0;
-    const double sign = mirrored ? -1.0 : 1.0;
-    for (auto& n : mesh->normals) {
-      const Vec3 placed = (Cross(column1, column2) * n[0] + Cross(column2, column0) * n[1] +
-                           Cross(column0, column1) * n[2]) *
-                          sign;
-      const double norm = Norm(placed);
-      const Vec3 unit = norm > 0.0 && std::isfinite(norm) ? placed * (1.0 / norm) : Vec3{};
-      n = {static_cast<float>(unit.x), static_cast<float>(unit.y), static_cast<float>(unit.z)};
-    }
     if (mirrored) {
       for (std::size_t i = 0; i + 2 < mesh->indices.size(); i += 3) {
         std::swap(mesh->indices[i + 1], mesh->indices[i + 2]);

@@ -2,6 +2,7 @@
 
 #include <tiny_gltf.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -9,6 +10,7 @@
 #include "base/vector.h"
 #include "compositor/models/gltf_accessor.h"
 #include "compositor/models/gltf_error.h"
+#include "compositor/models/model_limits.h"
 
 namespace pleinair::compositor {
 namespace {
@@ -76,24 +78,15 @@ Float3 Narrowed(Vec3 v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
-/// Turns a normal by the inverse transpose of a matrix, whose cofactors suffice: the length is
-/// free.
-Float3 TurnedNormal(const Mat3& m, const Float3& n) {
-  const Vec3 column0{m(0, 0), m(1, 0), m(2, 0)}, column1{m(0, 1), m(1, 1), m(2, 1)},
-      column2{m(0, 2), m(1, 2), m(2, 2)};
-  const double sign = Dot(Cross(column0, column1), column2) < 0.0 ? -1.0 : 1.0;
-  const Vec3 turned = (Cross(column1, column2) * n[0] + Cross(column2, column0) * n[1] +
-                       Cross(column0, column1) * n[2]) *
-                      sign;
-  const double norm = Norm(turned);
-  return norm > 0.0 && std::isfinite(norm) ? Narrowed(turned * (1.0 / norm)) : Float3{};
-}
-
 }  // namespace
 
 Result<void> ApplyMorphTargets(const tinygltf::Model& gltf, const tinygltf::Primitive& primitive,
                                std::span<const float> weights, const std::string& where,
                                Mesh* mesh) {
+  if (primitive.targets.size() > kMaxMorphTargets) {
+    return GltfError(where,
+                     "a mesh has more than " + std::to_string(kMaxMorphTargets) + " morph targets");
+  }
   for (std::size_t i = 0; i < std::min(weights.size(), primitive.targets.size()); ++i) {
     if (weights[i] == 0.0F || !std::isfinite(weights[i])) continue;
     const auto& target = primitive.targets[i];

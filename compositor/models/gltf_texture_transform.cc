@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "compositor/models/gltf_value.h"
+#include "compositor/models/gltf_accessor.h"
 
 namespace pleinair::compositor {
 namespace {

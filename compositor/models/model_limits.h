@@ -15,5 +15,9 @@ inline constexpr double kMaxCoordinate = 1e10, kMaxExtent = 1e8;
 /// From here on, neighbouring floats differ by more than half a millimetre in metres.
 inline constexpr double kMinFarCoordinate = 8192.0;
 inline constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{4} << 30;
+/// All decompressed streams of a file together: what a file may hold uncompressed.
+inline constexpr std::size_t kMaxDecodedBytes = kMaxFileBytes / 2;
+/// Morph targets of a mesh.
+inline constexpr std::size_t kMaxMorphTargets = 4096;
 
 }  // namespace pleinair::compositor

@@ -150,7 +150,7 @@ class ObjParser {
     std::array<float, 3> color{};
     for (std::size_t c = 0; c < 3; ++c) {
       const std::optional<float> value = ParseObjNumber(words[c]);
-      if (!value) return Fail(Quoted(words[c]) + " is not the colour of a vertex");
+      if (!value) return Fail(Quoted(words[c]) + " is not the color of a vertex");
       color[c] = static_cast<float>(LinearFromSrgb(std::clamp(*value, 0.0F, 1.0F)));
     }
     listed_.colors.resize(listed_.positions.size(), {1.0F, 1.0F, 1.0F});
