@@ -62,7 +62,7 @@ struct ModelReference {
   /// Metres of one unit of the file (scene/length_units.h). Unset: the file is in metres.
   std::optional<double> unit_m;
   ModelOrigin origin = ModelOrigin::kFile;
-  std::string animation;           ///< Of a glTF file: name or number; empty: its pose without one.
+  std::string animation;           ///< Name or number in a glTF file; empty: its pose without one.
   double animation_start_s = 0.0;  ///< The moment of the animation that is shown.
   Vec3 translation_m;              ///< Of the model's origin, marker coordinates.
   Vec3 rotation_deg;               ///< About the marker's x, then y, then z axis.
