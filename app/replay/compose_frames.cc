@@ -87,7 +87,8 @@ Result<void> ComposeFrames(ReplayState& state) {
   CompositeWriter writer(std::move(frames), std::move(video));
   std::vector<std::pair<std::int64_t, std::int64_t>> frames_seen;
   std::vector<LightRow> rows;
-  const std::set<std::int64_t> shown = ReportFrames(state.report.path, state.report.film.frames);
+  const std::set<std::int64_t> shown =
+      ReportFrames(state.report.path, state.report.film.first_frame, state.report.film.frames);
   const auto take = [&](const devices::Frame& frame,
                         session::ComposedFrame composed) -> Result<void> {
     frames_seen.emplace_back(frame.index, frame.timestamp_ns);

@@ -20,7 +20,10 @@ Result<void> FindMarkers(ReplayState& state, devices::Recording recording) {
   const auto take = [&](const devices::Frame& frame,
                         const session::TrackedFrame& tracked) -> Result<void> {
     state.frame_warnings.Add(frame.index, tracked.warnings);
-    if (is_first) state.first_stamp_ns = frame.timestamp_ns;
+    if (is_first) {
+      state.first_stamp_ns = frame.timestamp_ns;
+      state.report.film.first_frame = frame.index;
+    }
     is_first = false;
     state.lost_frames += frame.lost_before;
     std::string line =

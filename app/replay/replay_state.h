@@ -29,7 +29,7 @@ struct ReplayState {
   std::unique_ptr<session::Pipeline> pipeline{};
   FrameWarnings frame_warnings{};                   ///< From the tracker.
   std::vector<exports::MarkersMessage> messages{};  ///< Lines of detections.jsonl, for MCAP.
-  std::int64_t first_stamp_ns = 0;                  ///< Of the first frame of the range.
+  std::int64_t first_stamp_ns = 0;                  ///< Time of the first frame in the range.
   std::int64_t lost_frames = 0;                     ///< Dropped by the recorder.
   TimeLapseMoments day_moments{};
   StageTimes times{};

@@ -37,10 +37,10 @@ PoseStatistics SummarizeTrajectory(const std::vector<session::Observation>& path
   return statistics;
 }
 
-LostFrames CountLostFrames(const std::vector<session::Observation>& path, std::int64_t frames) {
+LostFrames CountLostFrames(const std::vector<session::Observation>& path, std::int64_t end) {
   LostFrames lost;
   for (std::size_t i = 0; i < path.size(); ++i) {
-    const std::int64_t next = i + 1 < path.size() ? path[i + 1].frame_index : frames;
+    const std::int64_t next = i + 1 < path.size() ? path[i + 1].frame_index : end;
     const std::int64_t gap = next - path[i].frame_index - 1;
     lost.frames += gap;
     lost.longest = std::max(lost.longest, gap);

@@ -35,7 +35,8 @@ struct ReplayCall {
 struct ReplayedFilm {
   int width = 0, height = 0;  ///< Pixels.
   double frame_rate_hz = 0.0;
-  devices::FilmCurve curve = devices::FilmCurve::kSrgb;  ///< Of the frames' pixel values.
+  devices::FilmCurve curve = devices::FilmCurve::kSrgb;  ///< Curve of the frames' pixel values.
+  std::int64_t first_frame = 0;                          ///< Index in the recording.
   std::int64_t frames = 0;
 };
 
@@ -105,8 +106,8 @@ struct LostFrames {
   std::int64_t longest = 0;  ///< Consecutive frames.
 };
 
-/// Counts them in a trajectory. `frames`: frames of the recording.
-LostFrames CountLostFrames(const std::vector<session::Observation>& path, std::int64_t frames);
+/// Counts them in a trajectory. `end`: index of the frame after the film's last one.
+LostFrames CountLostFrames(const std::vector<session::Observation>& path, std::int64_t end);
 
 /// "clear", "hazy", "partly cloudy", "overcast".
 const char* CloudinessName(scene::Cloudiness cloudiness);

@@ -248,7 +248,8 @@ std::string ReportHtml(const ReplayReport& report) {
              "frames: marker found fast / by S-G / tracked");
     html +=
         Card(fmt::format("{:.0f} %", poses.visible_min * 100), "of the marker visible, minimum");
-    const LostFrames lost = CountLostFrames(report.path, report.film.frames);
+    const LostFrames lost =
+        CountLostFrames(report.path, report.film.first_frame + report.film.frames);
     html += Card(fmt::format("{}", lost.frames),
                  fmt::format("frames in which it was lost (longest: {})", lost.longest));
   }

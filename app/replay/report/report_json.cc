@@ -144,7 +144,8 @@ Json ChangesJson(const ReplayedLight& light) {
 
 Json PosesJson(const ReplayReport& report) {
   const PoseStatistics s = SummarizeTrajectory(report.path);
-  const LostFrames lost = CountLostFrames(report.path, report.film.frames);
+  const LostFrames lost =
+      CountLostFrames(report.path, report.film.first_frame + report.film.frames);
   Json found_by;
   for (const auto path : {tracker::DetectionPath::kFast, tracker::DetectionPath::kSurfGolay,
                           tracker::DetectionPath::kTracked}) {

@@ -20,10 +20,11 @@ std::vector<session::Observation> Path(std::int64_t size, std::int64_t seconds) 
 }
 
 TEST(ReportFrames, AreOfThoseWithAPoseWhereThereAreAny) {
-  EXPECT_EQ(ReportFrames(Path(8, 1), 100), (std::set<std::int64_t>{3, 9, 15, 21}));
-  EXPECT_EQ(ReportFrames({}, 80), (std::set<std::int64_t>{10, 30, 50, 70}));
-  EXPECT_EQ(ReportFrames({}, 2), (std::set<std::int64_t>{0, 1}));
-  EXPECT_TRUE(ReportFrames({}, 0).empty());
+  EXPECT_EQ(ReportFrames(Path(8, 1), 0, 100), (std::set<std::int64_t>{3, 9, 15, 21}));
+  EXPECT_EQ(ReportFrames({}, 0, 80), (std::set<std::int64_t>{10, 30, 50, 70}));
+  EXPECT_EQ(ReportFrames({}, 0, 2), (std::set<std::int64_t>{0, 1}));
+  EXPECT_EQ(ReportFrames({}, 45, 1), (std::set<std::int64_t>{45}));
+  EXPECT_TRUE(ReportFrames({}, 0, 0).empty());
 }
 
 }  // namespace

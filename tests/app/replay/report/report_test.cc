@@ -92,6 +92,12 @@ TEST(ReportJson, StatesHowTheMarkerWasFoundAndWhenItWasLost) {
   // Frame 3 and frames 5 to 8. Before frame 1 there was no track to lose.
   EXPECT_EQ(poses["lost"], nlohmann::json::parse(R"({"frames":5,"longest":4})"));
   EXPECT_THAT(ReportHtml(report), HasSubstr("frames in which it was lost (longest: 4)"));
+  // One frame of a recording, counted by its index in the whole.
+  report.film.first_frame = 45;
+  report.film.frames = 1;
+  report.path = {At(45, 0.0)};
+  EXPECT_EQ(nlohmann::json::parse(ReportJson(report))["poses"]["lost"],
+            nlohmann::json::parse(R"({"frames":0,"longest":0})"));
 }
 
 TEST(ReportJson, SurvivesNamesThatAreNotUtf8) {
