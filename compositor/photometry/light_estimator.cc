@@ -67,10 +67,6 @@ bool IsLitByCloudsAlone(const OvercastTest& clouds, const std::vector<OvercastTe
   return within || among;
 }
 
-bool MayShine(scene::Cloudiness stated) {
-  return stated == scene::Cloudiness::kClear || stated == scene::Cloudiness::kHazy;
-}
-
 }  // namespace
 
 LightEstimator::LightEstimator(std::shared_ptr<const PhantomRays> phantoms,
@@ -136,16 +132,6 @@ void LightEstimator::UseUnmodelledShadows(UnmodelledShadows unmodelled,
   found->measured.marker_shade = std::exp(MeanLog(found->skies.marker_shade));
 }
 
-void LightEstimator::UseHeading(const LightFilter& light_filter, LightEstimate* found) const {
-  const auto known = overrides_.heading_deg ? std::nullopt : light_filter.Heading(time_);
-  const HeadingOffset offset = known.value_or(HeadingOffset{});
-  found->heading = Radians(scene_.marker.heading.value() + offset.offset.value());
-  found->measured.heading_offset = offset.offset;
-  found->measured.heading_error = known ? std::optional(offset.error) : std::nullopt;
-  found->measured.heading_source =
-      known ? MeasuredLight::Source::kMeasured : MeasuredLight::Source::kDescription;
-}
-
 SunSkyRatio LightEstimator::EstimateHeadingAndRatio(LightFilter* light_filter,
                                                     LightEstimate* found) const {
   scene::MarkerDescription marker = scene_.marker;
@@ -158,7 +144,8 @@ SunSkyRatio LightEstimator::EstimateHeadingAndRatio(LightFilter* light_filter,
       with_reading.AddHeading(WeightedHeading(*heading), time_);
     }
   }
-  UseHeading(with_reading, found);
+  UseHeading({scene_.marker.heading, overrides_.heading_deg.has_value()}, with_reading, time_,
+             found);
   marker.heading = found->heading;
   const SunSkyRatio estimate = EstimateSunSkyRatio(
       FindShadowEdges(*phantoms_, samples_, *day_, scene::MarkerFromWorld(marker)));
@@ -166,7 +153,8 @@ SunSkyRatio LightEstimator::EstimateHeadingAndRatio(LightFilter* light_filter,
     *light_filter = with_reading;
   } else {
     // Without a sun the heading was not estimated from shadows.
-    UseHeading(*light_filter, found);
+    UseHeading({scene_.marker.heading, overrides_.heading_deg.has_value()}, *light_filter, time_,
+               found);
   }
   found->measured.evidence.edges = estimate.edges;
   found->measured.evidence.edges_agreeing = estimate.agreeing;

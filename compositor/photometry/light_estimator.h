@@ -48,7 +48,6 @@ class LightEstimator {
   /// description has no sun, the ground must show a shadow edge as well: a marker may be wet or
   /// dirty.
   bool IsMarkerDivided(const UnmodelledShadows& unmodelled) const;
-  void UseHeading(const LightFilter& light_filter, LightEstimate* found) const;
   /// Used where nothing is to be measured: only checks whether unmodelled geometry shades the
   /// ground.
   void UseDescribedLight(LightEstimate* found) const;
@@ -64,7 +63,7 @@ class LightEstimator {
   MarkerLightMeter meter_;
   int dappled_ = 0;                                    // Frames in which leaves shade the marker.
   std::vector<MarkerShadowEdge> marker_shadow_edges_;  // One per frame with a divided marker.
-  // Of the last frame with an exposure estimate; 1 before the first.
+  // By the last frame with an exposure estimate; 1 before the first.
   LinearRgb exposure_scale_{1.0, 1.0, 1.0};
 };
 

@@ -86,6 +86,10 @@ std::shared_ptr<const sky::SkySource> Make(double turbidity, double cover) {
 
 }  // namespace
 
+bool MayShine(scene::Cloudiness stated) {
+  return stated == scene::Cloudiness::kClear || stated == scene::Cloudiness::kHazy;
+}
+
 std::shared_ptr<const sky::SkySource> DescribedSky(const scene::SceneDescription& scene) {
   return sky::CreateDaylight({ConditionOf(scene.cloudiness), scene.turbidity.value_or(0.0)});
 }

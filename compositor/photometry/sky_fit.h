@@ -20,6 +20,9 @@ struct SkyFit {
   LinearRgb sky_radiance_scale{1.0, 1.0, 1.0};  ///< Multiplies the sky; the sun stays.
 };
 
+/// True if the words of a scene have a sun.
+bool MayShine(scene::Cloudiness stated);
+
 /// Skies of the scene description.
 std::shared_ptr<const sky::SkySource> DescribedSky(const scene::SceneDescription& scene);
 /// The same with a sun, whatever the description. Shadow edges are measured against it.

@@ -5,19 +5,18 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
-#include <optional>
 
 #include "base/parallel_for.h"
 #include "base/quantile.h"
 #include "compositor/light/sampling.h"
 #include "compositor/light/scaled_sky.h"
+#include "compositor/photometry/sample_medians.h"
+#include "compositor/photometry/shadow_side.h"
 
 namespace pleinair::compositor {
 namespace {
 
 constexpr double kGrazing = 0.1;
-constexpr int kDiscDirections = 8;  // On the rim of the sun's disc, besides its centre.
-constexpr double kBlurPx = 1.5;     // Surface samples nearer to an edge than this mix both sides.
 constexpr int kMinSurfaceSamples = 5;  // Per side.
 constexpr std::size_t kMaxEdges = 120;
 constexpr std::uint32_t kPaths = 384;
@@ -40,59 +39,6 @@ constexpr int kGroups = 8;
 using Rgb = std::array<double, 3>;
 Rgb ToArray(LinearRgb c) { return {c.r, c.g, c.b}; }
 
-enum class Side : std::uint8_t { kLit, kShaded, kNeither };
-
-/// Classifies samples that are clear of every edge by the sun's width and the image blur.
-Side SideOf(const PhantomRays& phantoms, const SurfaceSample& sample, const TangentFrame& sun) {
-  const bool lit = phantoms.IsUnoccluded(sample.point, sun.normal);
-  constexpr double kRim = 0.98;
-  for (int i = 0; i < kDiscDirections; ++i) {
-    const Vec3 direction =
-        SunDiscDirection(sun, {kRim * kRim, static_cast<double>(i) / kDiscDirections});
-    if (phantoms.IsUnoccluded(sample.point, direction) != lit) return Side::kNeither;
-  }
-  const TangentFrame around(sample.normal);
-  const double step = kBlurPx * sample.footprint_m;
-  for (const Vec3 aside : {around.tangent, -around.tangent, around.bitangent, -around.bitangent}) {
-    const Point<Marker> beside{sample.point.xyz + aside * step};
-    if (phantoms.IsUnoccluded(beside, sun.normal) != lit) return Side::kNeither;
-  }
-  return lit ? Side::kLit : Side::kShaded;
-}
-
-/// Median over surface samples and the variance of that median, for a channel or (−1) the channels'
-/// mean.
-std::pair<double, double> MedianBrightness(const SurfaceSamples& samples,
-                                           const std::vector<std::uint32_t>& surface_samples,
-                                           int channel) {
-  std::vector<double> values;
-  for (const std::uint32_t surface_sample : surface_samples) {
-    const Rgb& log_rgb = samples.samples()[surface_sample].log_rgb;
-    values.push_back(channel >= 0 ? log_rgb[channel] : (log_rgb[0] + log_rgb[1] + log_rgb[2]) / 3);
-  }
-  const double median = Median(values);
-  for (double& value : values) value = std::fabs(value - median);
-  // For a normal distribution: 1.4826 converts a median absolute deviation to a standard deviation.
-  // π/2 is the variance of a median over that of a mean.
-  const double sigma = 1.4826 * Median(values);
-  return {median, 1.571 * sigma * sigma / static_cast<double>(values.size())};
-}
-
-/// The surface sample nearest to the centroid of some.
-Point<Marker> Middle(const SurfaceSamples& samples,
-                     const std::vector<std::uint32_t>& surface_samples) {
-  Vec3 mean;
-  for (const std::uint32_t surface_sample : surface_samples)
-    mean = mean + samples.samples()[surface_sample].point.xyz;
-  mean = mean * (1.0 / static_cast<double>(surface_samples.size()));
-  const auto nearest =
-      std::min_element(surface_samples.begin(), surface_samples.end(), [&](auto a, auto b) {
-        return Norm(samples.samples()[a].point.xyz - mean) <
-               Norm(samples.samples()[b].point.xyz - mean);
-      });
-  return samples.samples()[*nearest].point;
-}
-
 struct Candidate {
   std::vector<std::uint32_t> lit, shaded;
   std::size_t Size() const { return std::min(lit.size(), shaded.size()); }
@@ -101,7 +47,7 @@ struct Candidate {
 std::vector<Candidate> Candidates(const PhantomRays& phantoms, const SurfaceSamples& samples,
                                   const TangentFrame& sun) {
   const auto& all = samples.samples();
-  std::vector<Side> sides(all.size(), Side::kNeither);
+  std::vector<ShadowSide> sides(all.size(), ShadowSide::kNeither);
   // Cells without a shadow boundary need no close test.
   std::vector<std::uint8_t> seen(samples.cells());
   std::vector<std::uint8_t> sun_visible(all.size());
@@ -113,13 +59,13 @@ std::vector<Candidate> Candidates(const PhantomRays& phantoms, const SurfaceSamp
   }
   ParallelFor(all.size(), 0, [&](std::size_t i) {
     if (seen[all[i].cell] == 3 && all[i].frames > 0 && Dot(all[i].normal, sun.normal) >= kGrazing) {
-      sides[i] = SideOf(phantoms, all[i], sun);
+      sides[i] = ShadowSideOf(phantoms, all[i], sun);
     }
   });
   std::vector<Candidate> cells(samples.cells());
   for (std::uint32_t i = 0; i < all.size(); ++i) {
-    if (sides[i] == Side::kLit) cells[all[i].cell].lit.push_back(i);
-    if (sides[i] == Side::kShaded) cells[all[i].cell].shaded.push_back(i);
+    if (sides[i] == ShadowSide::kLit) cells[all[i].cell].lit.push_back(i);
+    if (sides[i] == ShadowSide::kShaded) cells[all[i].cell].shaded.push_back(i);
   }
   std::erase_if(cells, [](const Candidate& cell) { return cell.Size() < kMinSurfaceSamples; });
   std::stable_sort(cells.begin(), cells.end(),
@@ -230,8 +176,8 @@ std::vector<ShadowEdge> FindShadowEdges(const PhantomRays& phantoms, const Surfa
     const Vec3 normal{n[0], n[1], n[2]};
     std::vector<Point<Marker>> points;
     for (const std::size_t i : members) {
-      points.push_back(Middle(samples, candidates[i].lit));
-      points.push_back(Middle(samples, candidates[i].shaded));
+      points.push_back(MiddleOf(samples, candidates[i].lit));
+      points.push_back(MiddleOf(samples, candidates[i].shaded));
     }
     const auto sky = phantoms.Ambient(points, normal, sky_alone, marker_from_world, kPaths);
     const auto reflected = phantoms.Ambient(points, normal, sun_alone, marker_from_world, kPaths);

@@ -101,11 +101,12 @@ class Transfer {
       for (std::size_t i = 0; i < block.escape_ends.size(); ++i) {
         const auto patch = static_cast<std::uint32_t>(index * FinalGather::kBlockSize + i);
         Straight& light = straight[patch];
+        const float weight = gathered_.RayWeight(patch, k);
         for (; at < block.escape_ends[i]; ++at) {
           const FinalGather::Escape& escape = block.escapes[at];
           if (escape.patch / kP != chunk || (k == 0 ? escape.with : escape.without) == 0) continue;
           if (fine && escape.patch != patches_.land()) continue;
-          light[escape.patch % kP] += gathered_.RayWeight(patch, k);
+          light[escape.patch % kP] += weight;
         }
         if (fine) {
           AddFinePatches(patch, chunk, k, &light);

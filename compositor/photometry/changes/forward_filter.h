@@ -38,7 +38,7 @@ class ForwardFilter {
  private:
   /// Error of log(sun over sky) that a frame's probes have in common, one standard deviation.
   struct CommonError {
-    double by_chance = 0.0;  ///< Of the light under which their albedos were learnt.
+    double by_chance = 0.0;  ///< By the light under which their albedos were learnt.
     /// By an error of the modelled sun over sky that all probes have in common: the signed factor
     /// on it.
     double per_share_error = 0.0;
@@ -54,8 +54,8 @@ class ForwardFilter {
     std::array<Case, 2> cases;  ///< The second one in unmodelled shade.
     bool may_be_shaded = false;
     double log_odds_shade = 0.0;
-    double noise_square = 0.0;  ///< Of a reading, relative.
-    CommonError learnt;         ///< Of log(sun over sky) when it was first seen.
+    double noise_square = 0.0;  ///< Variance of a reading, relative.
+    CommonError learnt;         ///< Error of log(sun over sky) when it was first seen.
     std::uint32_t readings = 0;
   };
   struct Reading {

@@ -13,6 +13,7 @@
 namespace pleinair::compositor {
 namespace {
 
+constexpr std::uint32_t kPaths = 256;  // Per probe and source of light.
 // Probes per frame, and at most in a recording: their noise is far below that of the model.
 constexpr double kProbesPerFrame = 450.0;
 constexpr std::size_t kMaxProbes = 4000;
@@ -103,7 +104,7 @@ void LightProbes::AddFrame(ImageView<const std::uint8_t> rgb, const Transform<Ca
                            const scene::MarkerReflectance& marker, std::int64_t frame_index,
                            std::int64_t timestamp_ns) {
   ProbedFrame frame{frame_index, timestamp_ns, {}, {}};
-  if (probes_.empty() && marker.size_m > 0.0) AddMarker(marker);
+  if (frames_.empty() && marker.size_m > 0.0) AddMarker(marker);
   const int step = std::max(2, static_cast<int>(std::sqrt(static_cast<double>(rgb.width()) *
                                                           rgb.height() / kProbesPerFrame)));
   const int columns = rgb.width() / step, rows = rgb.height() / step;
@@ -154,11 +155,6 @@ void LightProbes::SetResponse(const CameraResponse& response) {
   response_ = response;
 }
 
-void LightProbes::ForgetFrames() {
-  frames_.clear();
-  readings_ = 0;
-}
-
 bool LightProbes::Keeps(std::uint32_t probe, std::size_t frame) const {
   // The marker has few.
   if (probes_[probe].surface < 0) return true;
@@ -185,8 +181,7 @@ void LightProbes::ThinOut() {
 }
 
 std::vector<ProbeLight> LightOn(std::span<const LightProbe> probes, const PhantomRays& phantoms,
-                                const sky::SkyModel& day, const Mat3& marker_from_world,
-                                std::uint32_t paths) {
+                                const sky::SkyModel& day, const Mat3& marker_from_world) {
   std::vector<ProbeLight> lights(probes.size());
   const Vec3 to_sun = Normalized(marker_from_world * day.ToSun().xyz);
   const LinearRgb sun = day.SunNormalIrradiance();
@@ -212,8 +207,8 @@ std::vector<ProbeLight> LightOn(std::span<const LightProbe> probes, const Phanto
       normal = normal + probes[i].normal;
     }
     normal = Normalized(normal);
-    const auto sky = phantoms.Ambient(points, normal, sky_alone, marker_from_world, paths);
-    const auto reflected = phantoms.Ambient(points, normal, sun_alone, marker_from_world, paths);
+    const auto sky = phantoms.Ambient(points, normal, sky_alone, marker_from_world, kPaths);
+    const auto reflected = phantoms.Ambient(points, normal, sun_alone, marker_from_world, kPaths);
     for (std::size_t k = 0; k < members.size(); ++k) {
       lights[members[k]].sky = sky[k];
       lights[members[k]].reflected = reflected[k];

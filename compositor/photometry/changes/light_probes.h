@@ -55,9 +55,6 @@ class LightProbes {
   /// Decodes the readings, and those of frames to come, by another response.
   void SetResponse(const CameraResponse& response);
 
-  /// Forgets the frames, not the probes: for sessions without an end.
-  void ForgetFrames();
-
   const std::vector<LightProbe>& probes() const { return probes_; }
   const std::vector<ProbedFrame>& frames() const { return frames_; }
 
@@ -94,10 +91,9 @@ struct ProbeLight {
   bool IsSunlit() const { return direct.g > 0.0 && sun_visibility > 0.5; }
 };
 
-/// The light of `day` on each probe, by `paths` paths of skylight and as many of reflected
-/// sunlight. `marker_from_world` has the heading in use.
+/// The light of `day` on each probe, by 256 paths of skylight and as many of reflected sunlight.
+/// `marker_from_world` has the heading in use.
 std::vector<ProbeLight> LightOn(std::span<const LightProbe> probes, const PhantomRays& phantoms,
-                                const sky::SkyModel& day, const Mat3& marker_from_world,
-                                std::uint32_t paths = 256);
+                                const sky::SkyModel& day, const Mat3& marker_from_world);
 
 }  // namespace pleinair::compositor

@@ -28,8 +28,9 @@ constexpr double kOpenBetweenLeaves = 0.6;
 // Share of the sky that what casts the shade hides from it: something solid, and a crown; and the
 // share of the reflected sunlight that goes with the sun beneath a crown. Guesses.
 constexpr double kTakenBySolid = 0.1, kTakenByCrown = 0.35, kNotReflected = 0.5;
-// The most that a crown may take of either where the phantoms shade a place by themselves.
-constexpr double kMostTaken = 0.6, kLeastReflected = 0.2;
+// Where the phantoms shade a place by themselves: maximum share of the sky that a crown takes, and
+// minimum share of the reflected sunlight that it leaves.
+constexpr double kMaxTaken = 0.6, kMinReflected = 0.2;
 // Of a sun elsewhere: the share of the phantoms' edges where its light differs on the two sides,
 // and its cosine on a surface.
 constexpr double kElsewhere = 0.4, kOtherCosine = 0.5;
@@ -60,7 +61,7 @@ LinearRgb CrownShade(const CellPart& part, LinearRgb sky_scale) {
 }
 
 LinearRgb BeneathCrown(const CellPart& part, LinearRgb sky_scale) {
-  return part.light.sky * sky_scale * (1 - kMostTaken) + part.light.reflected * kLeastReflected;
+  return part.light.sky * sky_scale * (1 - kMaxTaken) + part.light.reflected * kMinReflected;
 }
 
 LogRgb Log(LinearRgb light) { return {std::log(light.r), std::log(light.g), std::log(light.b)}; }
@@ -127,7 +128,7 @@ LogRgb ModelDepth(const LightCell& cell) {
 
 /// Brightness of the described surface in this light: logarithm of cd/m².
 double LevelIn(const LightCell& cell, LinearRgb light) {
-  return Brightness(Log(light * cell.albedo * (1 / std::numbers::pi)));
+  return MeanLog(light * cell.albedo * (1 / std::numbers::pi));
 }
 
 void SetOneLevel(double level, CellPrediction* prediction) {

@@ -55,7 +55,7 @@ CellPrediction PredictInOtherSun(const LightCell& cell, LinearRgb sun);
 struct UnmodelledShade {
   double share = 0.0;
   bool leaves = false;
-  std::size_t band = 0;  ///< Of kBands, in most of the shade of leaves.
+  std::size_t band = 0;  ///< Index into kBands: most of the shade of leaves.
 };
 
 /// Prior probabilities of the states of a cell.

@@ -33,10 +33,6 @@ constexpr int kMinEdges = 3;
 constexpr std::size_t kMarkerPoints = 8;
 constexpr std::uint32_t kMarkerPaths = 512;
 
-bool MayShine(scene::Cloudiness stated) {
-  return stated == scene::Cloudiness::kClear || stated == scene::Cloudiness::kHazy;
-}
-
 LinearRgb Exp(const LogRgb& logs) {
   return {std::exp(logs[0]), std::exp(logs[1]), std::exp(logs[2])};
 }
@@ -67,17 +63,6 @@ MarkerLight LightOnMarker(const FittedLightInput& input, const Mat3& marker_from
   }
   light.dappled = input.dappled;
   return light;
-}
-
-void UseHeading(const FittedLightInput& input, const LightFilter& light_filter,
-                LightEstimate* found) {
-  const auto known = input.heading_given ? std::nullopt : light_filter.Heading(input.time);
-  const HeadingOffset offset = known.value_or(HeadingOffset{});
-  found->heading = Radians(input.scene.marker.heading.value() + offset.offset.value());
-  found->measured.heading_offset = offset.offset;
-  found->measured.heading_error = known ? std::optional(offset.error) : std::nullopt;
-  found->measured.heading_source =
-      known ? MeasuredLight::Source::kMeasured : MeasuredLight::Source::kDescription;
 }
 
 /// What a sky that was seen beside the sun is called after: the evidence that told it.
@@ -141,6 +126,7 @@ LightEstimate EstimateByFit(const FittedLightInput& input, LightFilter* light_fi
     return found;
   };
   if (input.day.ToSun().xyz.z <= 0.0) return settle_as_before();
+  const StatedHeading stated_heading{input.scene.marker.heading, input.heading_given};
   LightFilter with_heading = *light_filter;
   if (!input.heading_given) {
     const Mat3 stated = scene::MarkerFromWorld(input.scene.marker);
@@ -149,7 +135,7 @@ LightEstimate EstimateByFit(const FittedLightInput& input, LightFilter* light_fi
                         stated * input.day.ToSun().xyz);
     if (heading) with_heading.AddHeading(WeightedHeading(*heading), input.time);
   }
-  UseHeading(input, with_heading, &found);
+  UseHeading(stated_heading, with_heading, input.time, &found);
   const Fitted fitted = FitAt(input, found.heading);
   const LightPosterior& posterior = fitted.posterior;
   light.evidence.edges = posterior.counted.edges;
@@ -159,7 +145,7 @@ LightEstimate EstimateByFit(const FittedLightInput& input, LightFilter* light_fi
     *light_filter = with_heading;
   } else {
     // Without a sun the heading was not estimated from shadows.
-    UseHeading(input, *light_filter, &found);
+    UseHeading(stated_heading, *light_filter, input.time, &found);
   }
   if (posterior.clouds >= kSure) {
     light.sun_source = Source::kMeasured;

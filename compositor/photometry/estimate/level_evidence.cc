@@ -176,9 +176,12 @@ LevelFunction LevelEvidence::OfSurface(std::span<const LevelFunction> planes, do
   const double top = *std::max_element(sum.begin(), sum.end());
   LevelFunction values, of_exposure{};
   for (int i = 0; i < LevelGrid::kCount; ++i) values[i] = std::exp(sum[i] - top);
-  std::array<double, 2 * LevelGrid::kCount> prior;
-  for (int d = 0; d < 2 * LevelGrid::kCount; ++d)
-    prior[d] = std::exp(LogAlbedoPrior((d - LevelGrid::kCount) * LevelGrid::kStep));
+  static const auto prior = [] {
+    std::array<double, 2 * LevelGrid::kCount> densities;
+    for (int d = 0; d < 2 * LevelGrid::kCount; ++d)
+      densities[d] = std::exp(LogAlbedoPrior((d - LevelGrid::kCount) * LevelGrid::kStep));
+    return densities;
+  }();
   for (int e = 0; e < LevelGrid::kCount; ++e) {
     double total = 0.0;
     for (int i = 0; i < LevelGrid::kCount; ++i)

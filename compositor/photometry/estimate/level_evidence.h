@@ -19,14 +19,16 @@ class LevelGrid {
 /// A function of that error.
 using LevelFunction = std::array<double, LevelGrid::kCount>;
 
-/// How bright the cells of a plane are, beside what a hypothesis predicts, says by which error u
-/// the whole plane differs from its description. With the pattern of a material as noise, a cell
-/// of brightness m has the density p(m − open − u) in the open state, p(m − shade − u) in even
-/// shade, and the mean over everything between in the partial one.
+/// Evidence of how bright surfaces are, beside what a hypothesis about the light predicts.
 ///
-/// All planes of one surface have one albedo error (Student's distribution: descriptions are rough,
-/// some are wrong) and each its own small error of the modelled light. All surfaces share the error
-/// e of the exposure scale.
+/// The brightness of a plane's cells gives the error u by which the whole plane differs from its
+/// description. A cell of brightness m has the density p(m − open − u) in the open state, where p
+/// is the pattern of its material. In the dark state it is p(m − dark − u), in a partial state the
+/// mean over everything between.
+///
+/// All planes of one surface have one albedo error. It has Student's distribution, since
+/// descriptions are rough and some are wrong. Each plane has its own small error of the modelled
+/// light. All surfaces share the error e of the exposure scale.
 class LevelEvidence {
  public:
   /// Product over a plane's cells of Σ prior × density × level, as a logarithm, for each u; one

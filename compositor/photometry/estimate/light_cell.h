@@ -29,7 +29,7 @@ struct CellLight {
 struct CellPart {
   Point<Marker> place;    ///< The sample nearest to their middle.
   LogRgb log_rgb{};       ///< Median, as in SurfaceSample.
-  double variance = 0.0;  ///< Of the median of the brightness.
+  double variance = 0.0;  ///< Variance of the median of the brightness.
   CellLight light;
 };
 
@@ -41,12 +41,11 @@ struct CellStep {
 
 /// The evidence of one cell of SurfaceSamples: a small place on one material and plane.
 struct LightCell {
-  std::uint32_t index = 0;  ///< Among the cells of the samples.
-  int surface = 0;          ///< As in PhantomSurface; below 0: the marker's white.
-  int plane = 0;            ///< Cells of one surface that face about the same way have one number.
-  Vec3 normal;              ///< Unit, marker coordinates.
-  LinearRgb albedo{};       ///< As described.
-  LinearRgb sun;            ///< The unshaded sun on it: lux; black where it faces away.
+  int surface = 0;     ///< As in PhantomSurface; below 0: the marker's white.
+  int plane = 0;       ///< Cells of one surface that face about the same way have one number.
+  Vec3 normal;         ///< Unit, marker coordinates.
+  LinearRgb albedo{};  ///< As described.
+  LinearRgb sun;       ///< The unshaded sun on it: lux; black where it faces away.
   std::optional<CellPart> sunny, shaded;  ///< Both where a phantom's shadow ends here.
   std::optional<CellStep> step;           ///< Only where there is one part.
 };

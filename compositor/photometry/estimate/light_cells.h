@@ -10,9 +10,9 @@
 
 namespace pleinair::compositor {
 
-/// Reads the evidence of sun and sky from surface samples, and traces the modelled light on it. So
-/// that the time is bounded, at most 120 cells with the end of a phantom's shadow are traced (those
-/// with the most samples), 160 sunny ones and 48 shaded ones, spread evenly.
+/// Reads the evidence of sun and sky from surface samples, and traces the modelled light on it. The
+/// number of traced cells is bounded: 120 with the end of a phantom's shadow, those with the most
+/// samples; 160 sunlit and 48 shaded ones, spread evenly.
 ///
 /// `day` has a sun, `clouds` is overcast. `marker_from_world` has the heading in use.
 std::vector<LightCell> FindLightCells(const PhantomRays& phantoms, const SurfaceSamples& samples,
@@ -30,5 +30,7 @@ std::optional<CellStep> FindStep(const SurfaceSamples& samples,
 
 /// Cosine between the sun and a surface below which it counts as turned away.
 inline constexpr double kGrazingCosine = 0.1;
+/// Cosine between the normals of cells on one plane: within 14°.
+inline constexpr double kOnePlane = 0.97;
 
 }  // namespace pleinair::compositor

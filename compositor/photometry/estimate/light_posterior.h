@@ -26,7 +26,7 @@ struct CellShade {
   UnmodelledShade around;  ///< The most probable of its surface.
 };
 
-/// Cells that told the light.
+/// Numbers of cells from which the light was estimated.
 struct CountedCells {
   int edges = 0;           ///< Edges of phantoms' shadows that could show a contrast.
   int edges_agreeing = 0;  ///< Those on which the sun's full contrast is probable.
@@ -49,13 +49,14 @@ struct LightPosterior {
   CountedCells counted;
 };
 
-/// Fits sun and sky to the cells: the maximum a posteriori, and its uncertainty.
+/// Estimates sun and sky from the cells: the posterior mean of the sky's logarithmic scale, and its
+/// standard deviation (docs/method/light-fit.md).
 ///
-/// Three hypotheses are compared by their evidence (the sun shines as modelled; clouds hide it; a
-/// sun shines from elsewhere), each the product over surfaces of the level evidence (LevelEvidence)
-/// with the cells' contrasts (cell_model.h). Under the sun, the sky's logarithmic scale, the kind
-/// of unmodelled shade and its share on each surface are integrated over grids; the marker binds
-/// the exposure scale.
+/// Three hypotheses are compared by their evidence: the sun shines as modelled, clouds hide it, or
+/// a sun shines from elsewhere. The evidence is a product over surfaces of their levels
+/// (LevelEvidence) and contrasts (cell_model.h). Under the sun it is integrated over the sky's
+/// scale, the kind of unmodelled shade, and its share on each surface. The marker binds the
+/// exposure scale.
 LightPosterior FitLight(const std::vector<LightCell>& cells, const LightFitInput& input);
 
 }  // namespace pleinair::compositor

@@ -9,7 +9,7 @@ LightPrior PriorOf(scene::Cloudiness stated) {
     case scene::Cloudiness::kHazy:
       return {0.85, 0.11, 0.04, 0.6};
     case scene::Cloudiness::kPartlyCloudy:
-      return {0.50, 0.46, 0.04, 1.2};
+      break;
     case scene::Cloudiness::kOvercast:
       return {0.04, 0.95, 0.01, 1.2};
   }

@@ -16,16 +16,12 @@ constexpr std::array kHalfLight{0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9};
 // way round. Probability of a dappled marker in even sun, over that in shade.
 constexpr double kAnyway = 0.05, kDappledInSun = 0.2;
 
-double LogBrightness(LinearRgb light) {
-  return Brightness(LogRgb{std::log(light.r), std::log(light.g), std::log(light.b)});
-}
-
 }  // namespace
 
 MarkerExposure::MarkerExposure(const MarkerLight& marker, LinearRgb sky, LinearRgb sun,
                                double shaded)
     : known_(Luminance(marker.predicted) > 0.0), sky_(sky), sun_(sun) {
-  if (known_) predicted_ = LogBrightness(marker.predicted);
+  if (known_) predicted_ = MeanLog(marker.predicted);
   if (Luminance(sun) <= 0.0) return;
   open_ = kAnyway + (1 - 2 * kAnyway) * (1 - shaded);
   dark_ = 0.5 * (1 - open_);
@@ -34,7 +30,7 @@ MarkerExposure::MarkerExposure(const MarkerLight& marker, LinearRgb sky, LinearR
 }
 
 double MarkerExposure::Density(double e, double share) const {
-  const double z = (e - predicted_ + LogBrightness(sky_ + sun_ * share)) / kWhiteError;
+  const double z = (e - predicted_ + MeanLog(sky_ + sun_ * share)) / kWhiteError;
   return std::exp(-0.5 * z * z) / (kWhiteError * std::sqrt(2 * std::numbers::pi));
 }
 
@@ -58,7 +54,7 @@ double MarkerExposure::LogShade(double e) const {
   double shaded = dark_ * Density(e, 0.0);
   for (const double share : kHalfLight) shaded += half_ * Density(e, share);
   if (open_ * Density(e, 1.0) > shaded) return 0.0;
-  return std::max(0.0, e - predicted_ + LogBrightness(sky_ + sun_));
+  return std::max(0.0, e - predicted_ + MeanLog(sky_ + sun_));
 }
 
 }  // namespace pleinair::compositor

@@ -15,8 +15,6 @@ namespace {
 
 // Cosine below which the sun is too faint on a surface to tell shade from pattern.
 constexpr double kFaint = 0.2;
-// Cosine between normals of one plane, as FindLightCells() has it.
-constexpr double kOnePlane = 0.97;
 // Share of the sun below which a sample has none, and above which it has all. In between, patterns
 // and half-light cannot be separated.
 constexpr double kNoSun = 0.1, kAllSun = 0.9;

@@ -13,11 +13,10 @@ namespace pleinair::compositor {
 
 /// Maps how much of the sun unmodelled things such as trees let through, along the sun's rays.
 ///
-/// Each sample that the phantoms leave in the sun has the share of the sun by its brightness
-/// between the levels of shade and sun on its plane, which the fit found on `cells`. Where the fit
-/// finds a cell in the open sun, its darker samples are joints and spots of the material: the share
-/// is 1. In between, the share counts by the probability of shade, so that noise in the open sun
-/// draws nothing. `to_sun` is a unit vector in marker coordinates.
+/// A sample that the phantoms leave in the sun lies between the levels of shade and sun on its
+/// plane, which the fit found on `cells`. That gives its share of the sun. In a cell that lies in
+/// the open sun, darker samples are joints and spots of the material: the share is 1. Otherwise the
+/// share counts by the probability of shade. `to_sun` is a unit vector in marker coordinates.
 SunTransmittanceMap MapSunlight(const PhantomRays& phantoms, const SurfaceSamples& samples,
                                 const std::vector<LightCell>& cells,
                                 const LightPosterior& posterior, Vec3 to_sun);

@@ -106,14 +106,17 @@ bool IsSharp(const TwoLevels& levels) {
   return levels.spread < kSharp * (levels.high - levels.low);
 }
 
+bool AreTwoSides(const std::vector<ShadowSample>& sorted, const TwoLevels& levels) {
+  // A pole's shadow lies in the middle of a cell, with sun on both sides, but it is sharp.
+  return levels.low_share > kSideShare && levels.low_share < 1 - kSideShare &&
+         levels.spread < kSharpness * (levels.high - levels.low) &&
+         (IsSharp(levels) || Apartness(sorted, levels.low_count) > kApart);
+}
+
 bool HasShadowBoundary(const ShadowCell& cell, const TwoLevels& levels) {
   const double apart = levels.high - levels.low;
-  const bool two = apart > std::max(kEdgeDepth * cell.depth, kMinStep) &&
-                   levels.low_share > kSideShare && levels.low_share < 1 - kSideShare &&
-                   levels.spread < kSharpness * apart;
-  // A pole's shadow lies in the middle of a cell, with sun on both sides, but it is sharp.
-  return two && (IsSharp(levels) || Apartness(cell.surface_samples, levels.low_count) > kApart) &&
-         ChangesColorAsShadowsDo(cell, levels);
+  return apart > std::max(kEdgeDepth * cell.depth, kMinStep) &&
+         AreTwoSides(cell.surface_samples, levels) && ChangesColorAsShadowsDo(cell, levels);
 }
 
 bool IsPatterned(const ShadowCell& cell, const TwoLevels& levels) {

@@ -49,6 +49,9 @@ TwoLevels SplitInTwo(const std::vector<ShadowSample>& sorted);
 /// True if few values lie between the levels: a shadow edge, not a gradient or mottling.
 bool IsSharp(const TwoLevels& levels);
 
+/// True if the samples are two groups, on opposite sides or sharp, with few values between.
+bool AreTwoSides(const std::vector<ShadowSample>& sorted, const TwoLevels& levels);
+
 /// True if a shadow boundary divides a cell of sorted surface samples: two sharp levels, or two
 /// levels on opposite sides.
 bool HasShadowBoundary(const ShadowCell& cell, const TwoLevels& levels);

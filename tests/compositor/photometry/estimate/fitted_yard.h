@@ -1,46 +1,19 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <vector>
 
-#include "base/image.h"
-#include "base/srgb.h"
 #include "base/vector.h"
 #include "compositor/photometry/estimate/light_cells.h"
 #include "compositor/photometry/estimate/light_posterior.h"
 #include "compositor/photometry/estimate/sunlight_map.h"
 #include "compositor/photometry/surface_samples.h"
-#include "tests/compositor/photometry/photographed_yard.h"
+#include "tests/compositor/photometry/shadow_light_yard.h"
 
 namespace pleinair::compositor::testing {
 
 /// A yard with known light, and what the fit makes of photographs of it.
-class FittedYard : public ::testing::Test {
+class FittedYard : public ShadowLight {
  protected:
-  static void SetUpTestSuite() { yard_ = new PhotographedYard(); }
-  static void TearDownTestSuite() {
-    delete yard_;
-    yard_ = nullptr;
-  }
-
-  static SurfaceSamples Look(const PhotographedYard::Light& light, int pictures = 2,
-                             double exposure_step = 1.0) {
-    SurfaceSamples samples(yard_->phantoms(), yard_->camera(), yard_->marker());
-    for (int i = 0; i < pictures; ++i) {
-      const double exposure_scale = i == 0 ? 1.0 : exposure_step;
-      RgbImage picture = yard_->Photograph(i, light);
-      if (exposure_scale != 1.0) {
-        for (std::size_t k = 0; k < picture.size(); ++k) {
-          picture.data()[k] =
-              Srgb8FromLinear(LinearFromSrgb8()[picture.data()[k]] * exposure_scale);
-        }
-      }
-      samples.AddFrame(picture.view(), PhotographedYard::Pose(i),
-                       {exposure_scale, exposure_scale, exposure_scale});
-    }
-    return samples;
-  }
   /// What the fit makes of samples whose exposure scale no marker binds.
   struct Found {
     std::vector<LightCell> cells;
@@ -65,8 +38,6 @@ class FittedYard : public ::testing::Test {
   static Found Fit(const SurfaceSamples& samples) {
     return Fit(samples, yard_->phantoms(), yard_->model());
   }
-
-  static inline PhotographedYard* yard_ = nullptr;
 };
 
 }  // namespace pleinair::compositor::testing

@@ -11,6 +11,7 @@
 #include "compositor/photometry/heading_from_shadows.h"
 #include "compositor/photometry/shade/ratio_from_shade.h"
 #include "compositor/photometry/sun_sky_ratio.h"
+#include "tests/compositor/photometry/shade_scenes.h"
 #include "tests/compositor/photometry/shadow_light_yard.h"
 
 namespace pleinair::compositor {
@@ -118,65 +119,17 @@ TEST_F(ShadowLight, EstimatesHowMuchLiesInTheShadeOfTrees) {
 }
 
 TEST_F(ShadowLight, MapsWhereTheSunComesThroughTrees) {
-  // Stripes perpendicular to the sun's rays, cast by distant objects. They shade all points along a
-  // ray.
-  const Vec3 to_sun = Normalized(yard_->model().ToSun().xyz);
-  const Vec3 across = Normalized(Cross(to_sun, kUp));
-  const auto tree = [&](Vec3 p) { return std::sin(7 * Dot(p, across)) > 0.0; };
   const UnmodelledShadows unmodelled =
-      Shade(Look({.shaded = tree}), yard_->model(), yard_->phantoms());
+      Shade(Look(testing::StripedShade(*yard_)), yard_->model(), yard_->phantoms());
   ASSERT_TRUE(unmodelled.Matters());
-  int right = 0, points = 0;
-  for (int column = -8; column <= 8; ++column) {
-    for (int row = -8; row <= 2; ++row) {
-      const Vec3 ground{0.1 * column, 0.1 * row, 0.0};
-      if (!yard_->phantoms().IsUnoccluded({ground}, to_sun)) continue;
-      // Above the ground along the ray, where a virtual object could be.
-      for (const double above : {0.0, 0.3, 0.6}) {
-        if (std::fabs(std::sin(7 * Dot(ground, across))) < 0.3) continue;
-        ++points;
-        const double share = unmodelled.sun_transmittance.At(ground + to_sun * above);
-        right += (share < 0.5) == tree(ground) ? 1 : 0;
-      }
-    }
-  }
-  EXPECT_GT(points, 200);
-  EXPECT_GT(right, 0.95 * points);
+  testing::ExpectStripes(*yard_, unmodelled.sun_transmittance);
 }
 
 TEST_F(ShadowLight, MapsNoShadeWherePavingHasDarkJoints) {
-  const auto tree = [](Vec3 p) { return p.x < -0.9; };
-  const auto joints = [](Vec3 p) {
-    const auto beside = [](double v) { return std::fabs(v / 0.4 - std::round(v / 0.4)) * 0.4; };
-    return p.z < 0.01 && std::min(beside(p.x), beside(p.y)) < 0.015 ? 0.4 : 1.0;
-  };
   const UnmodelledShadows unmodelled =
-      Shade(Look({.shaded = tree, .colors_as_described = true, .brighter = joints}), yard_->model(),
-            yard_->phantoms());
+      Shade(Look(testing::ShadeBesideJoints()), yard_->model(), yard_->phantoms());
   ASSERT_TRUE(unmodelled.Matters());
-  const Vec3 to_sun = Normalized(yard_->model().ToSun().xyz);
-  int points = 0, open = 0, dark = 0;
-  for (int column = -60; column <= 30; ++column) {
-    for (int row = -40; row <= 10; ++row) {
-      const Vec3 ground{0.02 * column, 0.02 * row, 0.0};
-      // Look() takes no exposure from the marker, so that its white counts for nothing here.
-      const bool on_marker = std::max(std::fabs(ground.x), std::fabs(ground.y)) < 0.22;
-      const bool beside_tree = std::fabs(ground.x + 0.9) < 0.15;
-      if (on_marker || beside_tree || yard_->IsBesideShadowEdge(ground)) continue;
-      if (!yard_->phantoms().IsUnoccluded({ground}, to_sun)) continue;
-      const double share = unmodelled.sun_transmittance.At(ground);
-      if (tree(ground)) {
-        EXPECT_LT(share, 0.3) << ground.x << ' ' << ground.y;
-        continue;
-      }
-      ++points;
-      open += share > 0.95 ? 1 : 0;
-      dark += share < 0.7 ? 1 : 0;
-    }
-  }
-  EXPECT_GT(points, 500);
-  EXPECT_GT(open, 0.98 * points);
-  EXPECT_EQ(dark, 0);
+  testing::ExpectOpenJoints(*yard_, unmodelled.sun_transmittance);
 }
 
 TEST(SunTransmittanceMap, IsEmptyWhereAFewSamplesLieInOppositeCorners) {
