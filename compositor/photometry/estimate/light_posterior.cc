@@ -328,8 +328,10 @@ LightPosterior FitLight(const std::vector<LightCell>& cells, const LightFitInput
   // Without a marker the unit of the samples is unknown: most cells get the level of the described
   // colors in the open.
   std::vector<double> offsets;
-  for (const LightCell& cell : cells)
+  offsets.reserve(cells.size());
+  for (const LightCell& cell : cells) {
     offsets.push_back(LevelOf(cell) - PredictInSun(cell, 0.0, 0.0).open);
+  }
   const double offset = Median(offsets);
   std::vector<LightCell> shifted = cells;
   for (LightCell& cell : shifted) {
