@@ -55,6 +55,7 @@ compositor::NormalsMode NormalsOf(const std::string& shading) {
 
 std::vector<std::string> UnitNames() {
   std::vector<std::string> names;
+  names.reserve(scene::kLengthUnits.size());
   for (const scene::LengthUnit& unit : scene::kLengthUnits) names.emplace_back(unit.name);
   return names;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <utility>
 
 #include "base/parallel_for.h"
@@ -93,20 +94,26 @@ std::vector<std::uint8_t> FindSunlitSamples(const PhantomRays& phantoms,
 }
 
 std::optional<CellStep> FindStep(const SurfaceSamples& samples, const Members& part) {
-  ShadowCell cell;
-  for (const std::uint32_t member : part) {
-    const LogRgb& rgb = samples.samples()[member].log_rgb;
-    cell.surface_samples.push_back(
-        {Brightness(rgb), {rgb[0] - rgb[1], rgb[2] - rgb[1]}, samples.samples()[member].point.xyz});
-  }
-  auto& sorted = cell.surface_samples;
-  std::sort(sorted.begin(), sorted.end(),
-            [](const ShadowSample& a, const ShadowSample& b) { return a.value < b.value; });
+  const auto& all = samples.samples();
+  Members members = part;
+  std::sort(members.begin(), members.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return Brightness(all[a].log_rgb) < Brightness(all[b].log_rgb);
+  });
+  std::vector<ShadowSample> sorted;
+  sorted.reserve(members.size());
+  for (const std::uint32_t i : members)
+    sorted.push_back({Brightness(all[i].log_rgb), {}, all[i].point.xyz});
   const TwoLevels levels = SplitInTwo(sorted);
   if (levels.high - levels.low < kMinStep || !AreTwoSides(sorted, levels)) return std::nullopt;
-  const LinearRgb contrast = CrossingOf(cell, levels).contrast;
-  return CellStep{{contrast.r, contrast.g, contrast.b},
-                  sorted[(levels.low_count + sorted.size()) / 2].value};
+  const auto bright = std::span(members).subspan(levels.low_count);
+  CellStep step;
+  for (int c = 0; c < 3; ++c) {
+    step.contrast[c] =
+        MedianBrightness(samples, bright, c).first -
+        MedianBrightness(samples, std::span(members).first(levels.low_count), c).first;
+  }
+  step.bright = MedianBrightness(samples, bright, -1).first;
+  return step;
 }
 
 std::vector<LightCell> FindLightCells(const PhantomRays& phantoms, const SurfaceSamples& samples,
