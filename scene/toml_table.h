@@ -1,5 +1,7 @@
 #pragma once
 
+// Internal: between the .cc files of this module; not installed.
+
 #define TOML_EXCEPTIONS 0
 // In its test for white space, toml++ 3.3 marks U+00A1 to U+0499 (Latin, Greek, Cyrillic letters)
 // as unreachable although input can contain them: undefined behaviour, found by fuzzing. Those

@@ -80,11 +80,11 @@ TEST(PlacementWarnings, ReportAnObjectInMillimetres) {
   Placing placing;
   placing.reference.scale = 1000.0;
   EXPECT_THAT(placing.Warnings(),
-              ElementsAre("box.obj is 1.7 km large, and the camera 4.0 m from the marker: if its "
+              ElementsAre("box.obj is 1.732 km large, and the camera 4 m from the marker: if its "
                           "file is in millimetres, add unit = \"mm\" to its [[object]]; unit = "
                           "\"m\" if it is meant so."));
   placing.reference.scale = 1e-3;
-  EXPECT_THAT(placing.Warnings(), ElementsAre(HasSubstr("is only 1.7 mm large")));
+  EXPECT_THAT(placing.Warnings(), ElementsAre(HasSubstr("is only 1.732 mm large")));
 }
 
 TEST(PlacementWarnings, ReportSurveyCoordinatesUntilTheyAreOffset) {
@@ -99,7 +99,7 @@ TEST(PlacementWarnings, ReportWhatNoFrameShows) {
   Placing aside;
   aside.reference.translation_m = {30, 0, 0};
   EXPECT_THAT(aside.Warnings(), ElementsAre(HasSubstr("is in view in no frame")));
-  EXPECT_THAT(aside.Warnings(), ElementsAre(HasSubstr("[30.00, 0.00, 0.50], 30.0 m")));
+  EXPECT_THAT(aside.Warnings(), ElementsAre(HasSubstr("[30.00, 0.00, 0.50], 30 m from")));
   Placing behind;
   behind.reference.translation_m = {0, 0, 9};
   EXPECT_THAT(behind.Warnings(), ElementsAre(HasSubstr("is in view in no frame")));
