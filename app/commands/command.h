@@ -21,6 +21,7 @@ struct CommandResult {
 // callback writes results to standard output and everything else to standard error. It throws
 // nothing.
 void AddReplayCommand(CLI::App& app, CommandResult& result);
+void AddNewCommand(CLI::App& app, CommandResult& result);
 void AddCompareCommand(CLI::App& app, CommandResult& result);
 void AddLiveCommand(CLI::App& app, CommandResult& result);
 void AddDetectCommand(CLI::App& app, CommandResult& result);

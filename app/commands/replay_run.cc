@@ -11,7 +11,6 @@
 
 #include "app/options/picture_size.h"
 #include "app/replay/report/report_json.h"
-#include "devices/images/image_file.h"
 #include "gl/shader_library.h"
 #include "shadows/shadow_method.h"
 
@@ -145,7 +144,7 @@ Result<void> Run(ReplayArguments& arguments) {
   }
   PLEINAIR_RETURN_IF_ERROR(SetRange(arguments, &options.range));
   // A single picture is no video.
-  const bool is_still = arguments.range.frame || devices::IsImageFile(options.recording);
+  const bool is_still = arguments.range.frame.has_value();
   options.write.frames = arguments.frames || is_still;
   options.write.video = !arguments.no_video && !is_still;
   options.command = CommandText(arguments);

@@ -29,7 +29,7 @@ constexpr int kReportJpegQuality = 85;
 /// Opens the requested video; null: none.
 Result<std::unique_ptr<exports::VideoWriter>> OpenVideo(
     const std::optional<devices::RecordedSound>& sound, ReplayState& state) {
-  if (!state.options.write.video) return nullptr;
+  if (!state.write.video) return nullptr;
   ReplayReport& report = state.report;
   exports::VideoWriter::Options options{
       report.film.width, report.film.height, report.film.frame_rate_hz, report.film.curve, {}};
@@ -52,7 +52,7 @@ Result<std::unique_ptr<exports::VideoWriter>> OpenVideo(
 
 /// Creates the folder of the composited frames; empty if none is requested.
 Result<fs::path> MakeFrameFolder(ReplayState& state) {
-  if (!state.options.write.frames) return fs::path();
+  if (!state.write.frames) return fs::path();
   PLEINAIR_RETURN_IF_ERROR(state.folder.MakeFolder("frames"));
   state.report.files.outputs.emplace_back("frames/%04d.png");
   return state.folder.staging() / "frames";

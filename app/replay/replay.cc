@@ -51,6 +51,7 @@ Result<devices::Recording> Prepare(ReplayState& state) {
     return InputError(options.recording.string(), "has no scene",
                       "write one (docs/guide/reference/recordings.md) and give it with --scene");
   }
+  if (recording.is_photo) state.write = {.frames = true, .video = false};
   if (options.time_lapse) {
     PLEINAIR_ASSIGN_OR_RETURN(state.day_moments,
                               MomentsOf(*options.time_lapse, recording.scene->place_time));

@@ -21,6 +21,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// The rate of a single image; it appears nowhere.
+constexpr double kOneImageRate_hz = 1.0;
+
 bool IsFile(const fs::path& path) {
   std::error_code error;
   return fs::is_regular_file(path, error);
@@ -130,7 +133,8 @@ Result<RecordingManifest> ManifestOf(const OwnFolder& own) {
 fs::path FramesOf(const RecordingManifest& manifest, const fs::path& folder) {
   fs::path named = folder / manifest.frames.value_or("frames");
   // "frames/%04d.jpg": images are found by number, with any zero padding.
-  if (named.filename().string().find('%') != std::string::npos) named = named.parent_path();
+  const bool is_pattern = named.filename().string().find('%') != std::string::npos;
+  if (is_pattern && !IsFile(named)) named = named.parent_path();
   if (!IsFolder(named) && !IsFile(named) && IsFile(folder / "background.mp4")) {
     return folder / "background.mp4";
   }
@@ -157,6 +161,13 @@ Result<Recording> OpenOwnFolder(const fs::path& folder, const RecordingOptions& 
     recording.frame_rate_hz = pack.frame_rate_hz > 0.0 ? pack.frame_rate_hz : stated_hz;
     recording.dropped_bytes = pack.dropped_bytes;
     recording.frames = std::move(pack.frames);
+    return recording;
+  }
+  if (IsFile(frames) && IsImageFile(frames)) {
+    recording.frame_rate_hz = kOneImageRate_hz;
+    recording.is_photo = true;
+    PLEINAIR_ASSIGN_OR_RETURN(recording.frames,
+                              OpenImageSequence({{frames, 0, std::nullopt}}, size));
     return recording;
   }
   if (IsFile(frames)) {
@@ -258,7 +269,8 @@ Result<Recording> OpenPlainFile(const fs::path& file, const RecordingOptions& op
   }
   const ImageSize size{recording.camera.width, recording.camera.height};
   if (IsImageFile(file)) {
-    recording.frame_rate_hz = 1.0;  // Of a single frame; it appears nowhere.
+    recording.frame_rate_hz = kOneImageRate_hz;
+    recording.is_photo = true;
     PLEINAIR_ASSIGN_OR_RETURN(recording.frames, OpenImageSequence({{file, 0, std::nullopt}}, size));
     return recording;
   }

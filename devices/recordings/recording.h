@@ -33,6 +33,7 @@ struct Recording {
   CameraModel camera;
   std::optional<scene::SceneDescription> scene;
   double frame_rate_hz = 0.0;
+  bool is_photo = false;               ///< A single photograph.
   FilmCurve curve = FilmCurve::kSrgb;  ///< Of the frames, by a film's tags.
   std::optional<RecordedSound> sound;  ///< Of films that keep their own time stamps.
   /// Bytes after the last complete frame of a live recording: it was truncated there, for example

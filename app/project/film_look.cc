@@ -1,0 +1,157 @@
+#include "app/project/film_look.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <utility>
+
+#include "devices/images/image_file.h"
+#include "devices/recordings/image_sequence.h"
+#include "devices/recordings/video_file.h"
+#include "files/text_file.h"
+#include "session/light_frames.h"
+#include "session/scene_marker.h"
+#include "tracker/tracker.h"
+
+namespace pleinair::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uintmax_t kMaxPhotoFileBytes = std::uintmax_t{256} << 20;
+
+/// Frames of a file, before any lens is known.
+struct LookedAtFile {
+  std::unique_ptr<devices::FrameSource> frames;
+  ImageSize size;
+  devices::FilmTags tags;
+  bool is_photo = false;
+};
+
+Result<LookedAtFile> OpenLookedAtFile(const fs::path& file) {
+  LookedAtFile opened;
+  opened.is_photo = devices::IsImageFile(file);
+  if (!opened.is_photo) {
+    PLEINAIR_ASSIGN_OR_RETURN(devices::OpenedVideo video, devices::OpenVideo(file, {}));
+    opened.size = video.size;
+    opened.tags = std::move(video.facts.tags);
+    opened.frames = std::move(video.frames);
+    return opened;
+  }
+  PLEINAIR_ASSIGN_OR_RETURN(const std::string bytes,
+                            files::ReadWholeFile(file, kMaxPhotoFileBytes));
+  PLEINAIR_ASSIGN_OR_RETURN(opened.size, devices::InspectImage(bytes, file.string()));
+  opened.tags = devices::TagsOfPhoto(bytes);
+  PLEINAIR_ASSIGN_OR_RETURN(opened.frames,
+                            devices::OpenImageSequence({{file, 0, std::nullopt}}, opened.size));
+  return opened;
+}
+
+std::size_t CountOfLooks(ImageSize size) {
+  constexpr double kPixels = 25e6, kFewest = 4.0, kMost = 12.0;
+  const double each = std::max(1.0, static_cast<double>(size.width) * size.height);
+  return static_cast<std::size_t>(std::clamp(kPixels / each, kFewest, kMost));
+}
+
+}  // namespace
+
+KnownLens AssumedLens(ImageSize size, const devices::FilmTags& tags, const std::string& file) {
+  constexpr double kPhone_mm = 26.0;  // Main cameras of phones have 23 to 28 mm.
+  constexpr double kDiagonal35_mm = 43.27;
+  KnownLens lens;
+  const double focal_mm = tags.focal_length_35mm.value_or(kPhone_mm);
+  lens.from = tags.focal_length_35mm ? fmt::format(
+                                           "the tags of {}: {:g} mm on 35 mm film; film is "
+                                           "often cropped, so calibrate the lens",
+                                           file, focal_mm)
+                                     : fmt::format(
+                                           "assumed: {:g} mm on 35 mm film, as of a usual "
+                                           "phone; calibrate the lens",
+                                           focal_mm);
+  CameraModel& camera = lens.camera;
+  camera.width = size.width;
+  camera.height = size.height;
+  camera.fx = camera.fy = focal_mm / kDiagonal35_mm * std::hypot(size.width, size.height);
+  camera.cx = 0.5 * (size.width - 1);
+  camera.cy = 0.5 * (size.height - 1);
+  return lens;
+}
+
+Result<FilmLook> LookAt(const fs::path& file, const LookOptions& options) {
+  PLEINAIR_ASSIGN_OR_RETURN(LookedAtFile opened, OpenLookedAtFile(file));
+  FilmLook look{file, opened.is_photo, std::move(opened.tags), {}, 0, {}};
+  look.lens = options.lens.value_or(AssumedLens(opened.size, look.tags, file.filename().string()));
+  const CameraModel& camera = look.lens.camera;
+  if (ImageSize{camera.width, camera.height} != opened.size) {
+    return InputError(
+        file.string(),
+        fmt::format("has {}x{} pixels, but the calibration is for {}x{}", opened.size.width,
+                    opened.size.height, camera.width, camera.height),
+        "use the calibration of this camera at this size");
+  }
+  tracker::TrackerOptions tracking;
+  tracking.families = options.family ? std::vector<std::string>{*options.family}
+                                     : std::vector<std::string>{session::kSgFamily, "tag36h11"};
+  tracking.marker_size_m = 1.0;
+  PLEINAIR_ASSIGN_OR_RETURN(const auto tracker, tracker::Tracker::Create(camera, tracking));
+  look.frames = opened.frames->FrameCount().value_or(1);
+  for (const std::size_t index :
+       session::EvenlySpread(static_cast<std::size_t>(look.frames), CountOfLooks(opened.size))) {
+    const auto wanted = static_cast<std::int64_t>(index);
+    opened.frames->SkipTo(wanted);
+    for (;;) {
+      PLEINAIR_ASSIGN_OR_RETURN(const std::optional<devices::Frame> frame, opened.frames->Next());
+      if (!frame) return look;
+      if (frame->index < wanted) continue;
+      PLEINAIR_ASSIGN_OR_RETURN(auto markers, tracker->Track(frame->grey.view()));
+      look.looked_at.push_back({frame->index, std::move(markers)});
+      break;
+    }
+  }
+  return look;
+}
+
+double EdgeOf(const tracker::MarkerDetection& marker) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    sum += Norm(marker.corners_px[i] - marker.corners_px[(i + 1) % 4]);
+  }
+  return sum / 4.0;
+}
+
+std::optional<ChosenMarker> ChooseMarker(const FilmLook& look,
+                                         const std::optional<session::MarkerName>& wanted) {
+  std::map<session::MarkerName, ChosenMarker> seen;
+  std::map<session::MarkerName, double> best_score;
+  for (const LookedAtFrame& frame : look.looked_at) {
+    for (const tracker::MarkerObservation& marker : frame.markers) {
+      const session::MarkerName name{marker.detection.family, marker.detection.id};
+      ChosenMarker& chosen = seen[name];
+      chosen.name = name;
+      ++chosen.frames;
+      const double edge_px = EdgeOf(marker.detection);
+      const double score = edge_px * marker.detection.visible_fraction;
+      if (score <= best_score[name]) continue;
+      best_score[name] = score;
+      chosen.best_frame = frame.index;
+      chosen.best_edge_px = edge_px;
+    }
+  }
+  auto best = seen.end();
+  for (auto at = seen.begin(); at != seen.end(); ++at) {
+    if (wanted && at->first != *wanted) continue;
+    if (best == seen.end() || at->second.frames > best->second.frames) best = at;
+  }
+  if (best == seen.end()) return std::nullopt;
+  ChosenMarker chosen = best->second;
+  for (const auto& [name, other] : seen) {
+    if (name != chosen.name) chosen.others.push_back(name);
+  }
+  return chosen;
+}
+
+}  // namespace pleinair::app

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/camera_model.h"
+#include "base/error.h"
+#include "base/image_size.h"
+#include "devices/films/film_tags.h"
+#include "session/marker_tracks.h"
+#include "tracker/observation.h"
+
+namespace pleinair::app {
+
+/// A lens, and where it is known from.
+struct KnownLens {
+  CameraModel camera;
+  std::string from;  ///< For a comment: "camera.json", "the focal length in the tags of walk.mov".
+};
+
+/// The lens of images of this size: from the focal length in the tags, else that of a usual phone,
+/// 26 mm on 35 mm film. The tags' focal length has the angle of view of a 43.27 mm diagonal (CIPA
+/// DCG-001), so that fx = fy = f / 43.27 mm x the image's diagonal in pixels. The centre is that of
+/// the image, without distortion. `file` is the name in `from`. A film is often a crop of what the
+/// tags describe: the error is 5 to 20 %.
+KnownLens AssumedLens(ImageSize size, const devices::FilmTags& tags, const std::string& file);
+
+/// The markers of one frame, with the edge of each marker as the unit of length.
+struct LookedAtFrame {
+  std::int64_t index = 0;
+  std::vector<tracker::MarkerObservation> markers;
+};
+
+/// A look at some frames of a film, or at a photograph.
+struct FilmLook {
+  std::filesystem::path file;
+  bool is_photo = false;
+  devices::FilmTags tags;
+  KnownLens lens;
+  std::int64_t frames = 0;
+  std::vector<LookedAtFrame> looked_at;  ///< Spread evenly over all frames.
+};
+
+/// How to look.
+struct LookOptions {
+  std::optional<KnownLens> lens;        ///< In place of AssumedLens().
+  std::optional<std::string> family{};  ///< In place of "sg" and "tag36h11".
+};
+
+/// Opens a film or a photograph, and looks for markers in at most 12 of its frames: fewer of large
+/// ones, so that they have some 25 million pixels together. Errors: those of OpenVideo() and
+/// DecodeImageFile(); a lens for another size; an unknown family of markers.
+Result<FilmLook> LookAt(const std::filesystem::path& file, const LookOptions& options);
+
+/// The marker of a scene, as the frames show it.
+struct ChosenMarker {
+  session::MarkerName name;
+  int frames = 0;               ///< Looked-at frames that show it.
+  std::int64_t best_frame = 0;  ///< Where it is largest and least covered.
+  double best_edge_px = 0.0;    ///< Mean edge there, in pixels.
+  std::vector<session::MarkerName> others;
+};
+
+/// Chooses the marker that most of the frames show, or `wanted`. Nothing: no frame shows it.
+std::optional<ChosenMarker> ChooseMarker(const FilmLook& look,
+                                         const std::optional<session::MarkerName>& wanted);
+
+/// Mean edge of a marker in the image, in pixels.
+double EdgeOf(const tracker::MarkerDetection& marker);
+
+}  // namespace pleinair::app

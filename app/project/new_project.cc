@@ -1,0 +1,105 @@
+#include "app/project/new_project.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "app/project/first_picture.h"
+#include "app/project/project_folder.h"
+#include "app/project/scene_text.h"
+#include "app/terminal/interrupt.h"
+#include "devices/calibration/calibration.h"
+#include "devices/images/image_file.h"
+#include "scene/scene_facts.h"
+
+namespace pleinair::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The composed file first.
+Result<std::vector<fs::path>> InOrder(const std::vector<fs::path>& files) {
+  std::vector<fs::path> films, photos;
+  for (const fs::path& file : files) {
+    std::error_code error;
+    if (!fs::exists(file, error)) {
+      return InputError(file.string(), "does not exist", "check the name");
+    }
+    if (fs::is_directory(file, error)) {
+      return InputError(file.string(), "is a folder",
+                        "name a film or a photograph; 'pleinair replay' composes recordings");
+    }
+    (devices::IsImageFile(file) ? photos : films).push_back(file);
+  }
+  if (films.size() > 1) {
+    return InputError(films[1].string(), "is a second film",
+                      "make one project for each film; photographs may be added to it");
+  }
+  films.insert(films.end(), photos.begin(), photos.end());
+  return films;
+}
+
+Result<Footage> LookAtAll(const NewProjectRequest& request) {
+  PLEINAIR_ASSIGN_OR_RETURN(const std::vector<fs::path> files, InOrder(request.files));
+  LookOptions options;
+  if (request.marker) options.family = request.marker->family;
+  if (request.calibration) {
+    PLEINAIR_ASSIGN_OR_RETURN(CameraModel camera, devices::ReadCalibration(*request.calibration));
+    options.lens = KnownLens{camera, request.calibration->filename().string()};
+  }
+  Footage footage;
+  PLEINAIR_ASSIGN_OR_RETURN(footage.film, LookAt(files.front(), options));
+  const auto marker = ChooseMarker(footage.film, request.marker);
+  if (!marker) {
+    const std::string name = request.marker ? "marker " + request.marker->ToString() : "marker";
+    return InputError(
+        files.front().string(),
+        fmt::format("shows no {} in {} frames spread over it", name, footage.film.looked_at.size()),
+        "film it sharp, flat, larger than 16 pixels and with its white margin "
+        "(docs/guide/troubleshoot.md)");
+  }
+  footage.marker = *marker;
+  // A photograph has another lens than a film.
+  options.lens.reset();
+  for (std::size_t i = 1; i < files.size(); ++i) {
+    PLEINAIR_ASSIGN_OR_RETURN(FilmLook photo, LookAt(files[i], options));
+    footage.photos.push_back(std::move(photo));
+  }
+  return footage;
+}
+
+/// Reads the new scene as replay will.
+Result<scene::SceneDescription> Understand(const std::string& toml, const fs::path& folder) {
+  const fs::path file = fs::absolute(folder).lexically_normal() / "scene.toml";
+  PLEINAIR_ASSIGN_OR_RETURN(const scene::SceneFacts facts,
+                            scene::ParseSceneToml(toml, file.string()));
+  return scene::CompleteScene(facts, file);
+}
+
+}  // namespace
+
+Result<NewProject> MakeProject(const NewProjectRequest& request, Questions* questions) {
+  PLEINAIR_RETURN_IF_ERROR(CheckProjectFolder(request.folder, request.replaces));
+  std::error_code error;
+  if (request.stated.model && !fs::is_regular_file(*request.stated.model, error)) {
+    return InputError(request.stated.model->string(), "is no file", "check the name of the model");
+  }
+  PLEINAIR_ASSIGN_OR_RETURN(const Footage footage, LookAtAll(request));
+  PLEINAIR_ASSIGN_OR_RETURN(NewScene scene, CollectScene(footage, request.stated, questions));
+  ProjectFiles files;
+  PLEINAIR_ASSIGN_OR_RETURN(files.scene_toml, NewSceneToml(scene, request.folder));
+  PLEINAIR_ASSIGN_OR_RETURN(files.recording_json,
+                            NewRecordingJson(footage.film.file, footage.film.lens, request.folder));
+  PLEINAIR_ASSIGN_OR_RETURN(const scene::SceneDescription description,
+                            Understand(files.scene_toml, request.folder));
+  const InterruptGuard guard;
+  PLEINAIR_ASSIGN_OR_RETURN(
+      FirstPicture picture,
+      ComposeFirstPicture(footage.film, footage.marker.best_frame, description));
+  files.first_picture = std::move(picture.image);
+  PLEINAIR_RETURN_IF_ERROR(CheckInterrupt(request.folder.string()));
+  PLEINAIR_RETURN_IF_ERROR(WriteProject(files, request.folder, request.replaces));
+  return NewProject{std::move(scene), footage.marker.best_frame, std::move(picture.warnings)};
+}
+
+}  // namespace pleinair::app
