@@ -16,6 +16,7 @@ namespace {
 constexpr const char* kExamples =
     "Examples:\n"
     "  pleinair new walk.mov --model chair.glb -o site\n"
+    "  pleinair check site\n"
     "  pleinair replay recordings/courtyard_midday -o out/demo\n"
     "  pleinair compare out/demo recordings/courtyard_midday\n"
     "  pleinair detect photo.jpg --calibration camera.yaml --size-mm 140\n"
@@ -75,6 +76,7 @@ int RunCommandLine(int argc, const char* const* argv) {
     CommandResult result;
     AddReplayCommand(app, result);
     AddNewCommand(app, result);
+    AddCheckCommand(app, result);
     AddCompareCommand(app, result);
     AddLiveCommand(app, result);
     AddDetectCommand(app, result);

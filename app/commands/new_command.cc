@@ -31,7 +31,7 @@ constexpr const char* kNewExamples =
     "      asks nothing: time and place are those of the film's tags\n"
     "  pleinair new walk.mp4 -o site --size-mm 200 --heading-magnetic 337 \\\n"
     "      --time '2025-09-14T13:05:00[Europe/Prague]' --at 50.0875,14.4213,220\n"
-    "  pleinair replay site -o out\n"
+    "  pleinair check site && pleinair replay site -o out\n"
     "The folder gets scene.toml with a comment beside every value, recording.json with the lens "
     "and\n"
     "the film's name, and first.png. The film stays where it is. docs/guide/phone.md leads "
@@ -135,7 +135,7 @@ Result<void> RunNew(const NewArguments& arguments) {
             << fmt::format("lens: {}\n", project.scene.lens_from)
             << fmt::format(
                    "{0}: scene.toml recording.json first.png\n"
-                   "Look at first.png, correct scene.toml, then: "
+                   "Look at first.png, correct scene.toml, then: pleinair check {0}; "
                    "pleinair replay {0} -o OUT\n",
                    arguments.output);
   for (const std::string& warning : project.warnings) std::cerr << "warning: " << warning << '\n';

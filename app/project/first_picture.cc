@@ -69,7 +69,7 @@ Result<FirstPicture> ComposeFirstPicture(const FilmLook& look, std::int64_t fram
   std::optional<session::LightSummary> light;
   const auto take = [&](const devices::Frame&, session::ComposedFrame composed) -> Result<void> {
     picture.image = std::move(composed.image);
-    light = std::move(composed.light);
+    light = composed.light;
     return {};
   };
   PLEINAIR_RETURN_IF_ERROR(session::ComposeFrames(*pipeline, std::move(recording), take, monitor));

@@ -35,7 +35,7 @@ void Draw(AVFrame* frame, int i, double kr, double kb, const std::array<double, 
   const double unit = 1 << (depth - 8);
   for (int y = 0; y < bgr.rows; ++y) {
     for (int x = 0; x < bgr.cols; ++x) {
-      const cv::Vec3b pixel = bgr.at<cv::Vec3b>(y, x);
+      const cv::Vec3b& pixel = bgr.at<cv::Vec3b>(y, x);
       const double light[] = {LinearFromSrgb(pixel[2] / 255.0), LinearFromSrgb(pixel[1] / 255.0),
                               LinearFromSrgb(pixel[0] / 255.0)};
       double rgb[3];

@@ -1,0 +1,112 @@
+#include "app/check/check_project.h"
+
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "app/check/spread_frames.h"
+#include "app/replay/placement_warnings.h"
+#include "app/terminal/interrupt.h"
+#include "devices/recordings/recording.h"
+#include "files/text_file.h"
+#include "scene/sun_over_place.h"
+#include "session/pipeline.h"
+#include "session/recording_passes.h"
+#include "session/scene_marker.h"
+#include "session/scene_renderer.h"
+
+namespace pleinair::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostFrames = 24;
+
+Result<devices::Recording> OpenSpread(const CheckRequest& request) {
+  PLEINAIR_ASSIGN_OR_RETURN(
+      devices::Recording recording,
+      devices::OpenRecording(request.project, {request.calibration, request.scene}));
+  recording.frames = std::make_unique<SpreadFrames>(std::move(recording.frames), kMostFrames);
+  return recording;
+}
+
+/// What recording.json says of a lens that 'pleinair new' assumed; empty: it is calibrated.
+std::string LensGuess(const CheckRequest& request) {
+  if (request.calibration) return {};
+  const auto bytes =
+      files::ReadWholeFile(request.project / "recording.json", files::kMaxDescriptionBytes);
+  if (!bytes) return {};
+  const nlohmann::json json = nlohmann::json::parse(*bytes, nullptr, false);
+  if (!json.is_object() || !json.contains("calibration_from")) return {};
+  const nlohmann::json& from = json["calibration_from"];
+  if (!from.is_string()) return {};
+  const auto text = from.get<std::string>();
+  return text.starts_with("assumed") || text.starts_with("the tags") ? text : std::string();
+}
+
+/// The marker of a frame that the scene may mean; null without one.
+const tracker::MarkerObservation* SceneMarkerIn(
+    const std::vector<tracker::MarkerObservation>& markers,
+    const scene::MarkerDescription& described) {
+  const auto at = std::find_if(markers.begin(), markers.end(), [&](const auto& marker) {
+    return session::MayBeReferenceMarker({marker.detection.family, marker.detection.id}, described);
+  });
+  return at == markers.end() ? nullptr : &*at;
+}
+
+}  // namespace
+
+Result<SiteFacts> LookAtSite(const CheckRequest& request) {
+  const InterruptGuard guard;
+  const session::PassMonitor monitor{[&](std::int64_t, std::optional<std::int64_t>) {
+                                       return CheckInterrupt(request.project.string());
+                                     },
+                                     nullptr};
+  PLEINAIR_ASSIGN_OR_RETURN(devices::Recording recording, OpenSpread(request));
+  if (!recording.scene) {
+    return InputError(request.project.string(), "has no scene",
+                      "make one with 'pleinair new', or give --scene");
+  }
+  const scene::SceneDescription scene = *recording.scene;
+  const CameraModel camera = recording.camera;
+  session::PipelineOptions options;
+  options.light.film_response = devices::ResponseOf(recording.curve);
+  PLEINAIR_ASSIGN_OR_RETURN(const auto pipeline, session::Pipeline::Create(camera, scene, options));
+  SiteFacts facts;
+  facts.has_objects = !scene.objects.empty();
+  facts.lens_guess = LensGuess(request);
+  facts.sun_elevation_deg =
+      ToDegrees(scene::SunOver(scene.place_time, scene.place_time.start).elevation);
+  const CameraResponse response = pipeline->renderer().response();
+  const auto take = [&](const devices::Frame& frame,
+                        const session::TrackedFrame& tracked) -> Result<void> {
+    ++facts.looked_at;
+    const tracker::MarkerObservation* marker = SceneMarkerIn(tracked.observations, scene.marker);
+    if (marker == nullptr) return {};
+    const session::MarkerName name{marker->detection.family, marker->detection.id};
+    facts.frames.push_back(MeasureFrame(frame, *marker, camera,
+                                        scene.marker.target
+                                            ? scene::MarkerReflectance()
+                                            : session::MarkerReflectanceOf(scene.marker, name),
+                                        response));
+    return {};
+  };
+  PLEINAIR_RETURN_IF_ERROR(session::TrackRecording(*pipeline, std::move(recording), take, monitor));
+  const auto reference = pipeline->tracks().ReferenceMarker();
+  if (!reference) return facts;
+  facts.marker = reference->ToString();
+  session::SceneRenderer& renderer = pipeline->renderer();
+  if (facts.has_objects) {
+    facts.placement = PlacementWarnings(renderer.placed(), scene,
+                                        {camera, pipeline->tracks().TrackOf(*reference)},
+                                        renderer.phantom_rays());
+  }
+  if (!renderer.CanMeasureLight()) return facts;
+  PLEINAIR_ASSIGN_OR_RETURN(recording, OpenSpread(request));
+  PLEINAIR_RETURN_IF_ERROR(session::EstimateLight(*pipeline, std::move(recording), monitor));
+  facts.light = renderer.light().measured;
+  return facts;
+}
+
+}  // namespace pleinair::app

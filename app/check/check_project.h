@@ -1,0 +1,22 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "app/check/site_findings.h"
+#include "base/error.h"
+
+namespace pleinair::app {
+
+/// The recording to check.
+struct CheckRequest {
+  std::filesystem::path project;
+  std::optional<std::filesystem::path> scene, calibration;  ///< As for replay.
+};
+
+/// Looks at up to 24 frames spread over a recording, and collects what JudgeSite() takes. Errors:
+/// those of OpenRecording(), Pipeline::Create() and the passes; a recording without a scene;
+/// interrupted.
+Result<SiteFacts> LookAtSite(const CheckRequest& request);
+
+}  // namespace pleinair::app

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "base/error.h"
+#include "devices/frame_source.h"
+
+namespace pleinair::app {
+
+/// Delivers some frames of a recording, spread evenly over it, with their own indices and time
+/// stamps. FrameCount() is their number.
+class SpreadFrames : public devices::FrameSource {
+ public:
+  /// At most `most` frames; all where the number of frames is not known.
+  SpreadFrames(std::unique_ptr<devices::FrameSource> all, std::size_t most);
+
+  Result<std::optional<devices::Frame>> Next() override;
+  std::optional<std::int64_t> FrameCount() const override;
+  void SkipTo(std::int64_t index) override;
+
+ private:
+  std::unique_ptr<devices::FrameSource> all_;
+  std::optional<std::vector<std::int64_t>> wanted_;
+  std::size_t next_ = 0;  // Of the wanted ones.
+};
+
+}  // namespace pleinair::app

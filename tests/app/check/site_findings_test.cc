@@ -1,0 +1,140 @@
+#include "app/check/site_findings.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <string>
+
+namespace pleinair::app {
+namespace {
+
+/// A site without a fault, in ten frames.
+SiteFacts GoodSite() {
+  SiteFacts facts;
+  facts.looked_at = 10;
+  facts.marker = "sg_17";
+  facts.sun_elevation_deg = 43.0;
+  facts.has_objects = true;
+  facts.light.emplace();
+  facts.light->heading_source = compositor::MeasuredLight::Source::kMeasured;
+  for (int i = 0; i < 10; ++i) {
+    FrameFacts frame;
+    frame.index = i;
+    frame.edge_px = 100.0;
+    frame.blur_px = 0.6;
+    frame.white = 0.6;
+    frame.focal = FocalRatio{0.001, 0.02};
+    facts.frames.push_back(frame);
+  }
+  return facts;
+}
+
+SiteVerdict VerdictOn(const std::string& subject, const std::function<void(SiteFacts*)>& change) {
+  SiteFacts facts = GoodSite();
+  change(&facts);
+  for (const SiteFinding& finding : JudgeSite(facts)) {
+    if (finding.subject != subject) continue;
+    if (finding.verdict == SiteVerdict::kBad) {
+      EXPECT_NE(finding.remedy, "") << finding.text;
+    }
+    return finding.verdict;
+  }
+  ADD_FAILURE() << "nothing is said of " << subject;
+  return SiteVerdict::kUnknown;
+}
+
+void ForAll(SiteFacts* facts, const std::function<void(FrameFacts*)>& change) {
+  for (FrameFacts& frame : facts->frames) change(&frame);
+}
+
+TEST(JudgeSite, FindsNoFaultWhereThereIsNone) {
+  for (const SiteFinding& finding : JudgeSite(GoodSite())) {
+    EXPECT_EQ(finding.verdict, SiteVerdict::kGood) << finding.subject << ": " << finding.text;
+    EXPECT_EQ(finding.remedy, "");
+  }
+}
+
+TEST(JudgeSite, WithoutAMarkerNoPictureIsRight) {
+  EXPECT_EQ(VerdictOn("marker", [](SiteFacts* site) { site->frames.clear(); }), SiteVerdict::kBad);
+  EXPECT_EQ(VerdictOn("marker", [](SiteFacts* site) { site->frames.resize(8); }),
+            SiteVerdict::kDoubtful);
+}
+
+TEST(JudgeSite, SmallAmbiguousAndBlurredMarkersAreNamed) {
+  const auto edge = [](double edge_px) {
+    return [edge_px](SiteFacts* site) {
+      ForAll(site, [edge_px](FrameFacts* frame) { frame->edge_px = edge_px; });
+    };
+  };
+  EXPECT_EQ(VerdictOn("size", edge(12.0)), SiteVerdict::kBad);
+  EXPECT_EQ(VerdictOn("size", edge(20.0)), SiteVerdict::kDoubtful);
+  EXPECT_EQ(VerdictOn("view",
+                      [](SiteFacts* site) {
+                        ForAll(site, [](FrameFacts* frame) { frame->ambiguity_ratio = 0.5; });
+                      }),
+            SiteVerdict::kDoubtful);
+  EXPECT_EQ(VerdictOn("blur",
+                      [](SiteFacts* site) {
+                        ForAll(site, [](FrameFacts* frame) { frame->blur_px = 5.0; });
+                      }),
+            SiteVerdict::kDoubtful);
+  EXPECT_EQ(VerdictOn("blur",
+                      [](SiteFacts* site) {
+                        ForAll(site, [](FrameFacts* frame) { frame->blur_px.reset(); });
+                      }),
+            SiteVerdict::kUnknown);
+}
+
+TEST(JudgeSite, ClippedDarkAndDriftingExposureIsNamed) {
+  EXPECT_EQ(VerdictOn("exposure",
+                      [](SiteFacts* site) {
+                        ForAll(site, [](FrameFacts* frame) { frame->clipped_share = 0.9; });
+                      }),
+            SiteVerdict::kDoubtful);
+  EXPECT_EQ(VerdictOn("exposure",
+                      [](SiteFacts* site) {
+                        ForAll(site, [](FrameFacts* frame) { frame->white = 0.01; });
+                      }),
+            SiteVerdict::kDoubtful);
+  EXPECT_EQ(VerdictOn("exposure", [](SiteFacts* site) { site->frames[3].white = 0.4; }),
+            SiteVerdict::kDoubtful);
+  EXPECT_EQ(VerdictOn("exposure", [](SiteFacts* site) { site->frames[3].white = 0.5; }),
+            SiteVerdict::kGood);
+}
+
+TEST(JudgeSite, ZoomsAndOtherLensesAreNamed) {
+  EXPECT_EQ(VerdictOn("lens",
+                      [](SiteFacts* site) {
+                        for (FrameFacts& frame : site->frames) {
+                          frame.focal->log_ratio = frame.index % 2 == 0 ? 0.15 : -0.15;
+                        }
+                      }),
+            SiteVerdict::kDoubtful);
+  EXPECT_EQ(VerdictOn("lens",
+                      [](SiteFacts* site) {
+                        ForAll(site, [](FrameFacts* frame) { frame->focal->log_ratio = 0.2; });
+                      }),
+            SiteVerdict::kDoubtful);
+  EXPECT_EQ(VerdictOn("lens", [](SiteFacts* site) { site->lens_guess = "assumed: 26 mm"; }),
+            SiteVerdict::kDoubtful);
+}
+
+TEST(JudgeSite, NightWrongHeadingsAndHiddenObjectsAreNamed) {
+  EXPECT_EQ(VerdictOn("sun", [](SiteFacts* site) { site->sun_elevation_deg = -20.0; }),
+            SiteVerdict::kBad);
+  EXPECT_EQ(VerdictOn("sun", [](SiteFacts* site) { site->sun_elevation_deg = -2.0; }),
+            SiteVerdict::kDoubtful);
+  EXPECT_EQ(VerdictOn("heading", [](SiteFacts* site) { site->light->sun_doubtful = true; }),
+            SiteVerdict::kDoubtful);
+  EXPECT_EQ(VerdictOn("heading",
+                      [](SiteFacts* site) { site->light->heading_offset = FromDegrees(-12.0); }),
+            SiteVerdict::kDoubtful);
+  EXPECT_EQ(VerdictOn("heading", [](SiteFacts* site) { site->light.reset(); }),
+            SiteVerdict::kUnknown);
+  EXPECT_EQ(VerdictOn("object", [](SiteFacts* site) { site->placement = {"It is in no view."}; }),
+            SiteVerdict::kDoubtful);
+}
+
+}  // namespace
+}  // namespace pleinair::app
