@@ -11,6 +11,7 @@
 #include "accuracy/scene.h"
 #include "app/accuracy/accuracy_config.h"
 #include "app/accuracy/record_parts.h"
+#include "app/options/shard_option.h"
 #include "base/error.h"
 
 namespace pleinair::app {
@@ -27,11 +28,6 @@ std::vector<AccuracyChunk> PlanChunks(const AccuracyConfig& config);
 
 /// Index of the first frame of a chunk in the order of frames.
 constexpr std::int64_t FirstFrameOf(std::int64_t chunk) { return chunk << 20; }
-
-/// A part of a run: the chunks whose position modulo `count` is `index` - 1.
-struct Shard {
-  int index = 1, count = 1;
-};
 
 struct RunOutcome {
   std::int64_t chunks = 0;                   ///< In this shard.

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <iostream>
 #include <memory>
@@ -21,6 +20,7 @@
 #include "app/commands/command.h"
 #include "app/options/marker_numbers.h"
 #include "app/options/number_range.h"
+#include "app/options/shard_option.h"
 
 namespace pleinair::app {
 namespace {
@@ -46,22 +46,6 @@ struct AccuracyOptions {
   bool quick = false, json = false;
 };
 
-/// "2/7".
-Result<Shard> ShardOf(const std::string& text) {
-  Shard shard;
-  if (text.empty()) return shard;
-  const char* end = text.data() + text.size();
-  const auto first = std::from_chars(text.data(), end, shard.index);
-  bool good = first.ec == std::errc() && first.ptr != end && *first.ptr == '/';
-  if (good) {
-    const auto second = std::from_chars(first.ptr + 1, end, shard.count);
-    good = second.ec == std::errc() && second.ptr == end;
-  }
-  if (good && shard.count >= 1 && shard.index >= 1 && shard.index <= shard.count) return shard;
-  return InputError("--shard", "\"" + text + "\" is no part of a whole",
-                    "write I/N with I from 1 to N, for example 2/7");
-}
-
 Result<void> Complete(AccuracyOptions* options) {
   constexpr double kQuickScale = 0.125;
   AccuracyConfig& config = options->config;
@@ -80,7 +64,7 @@ Result<void> Complete(AccuracyOptions* options) {
 
 Result<void> RunAccuracy(AccuracyOptions& options) {
   PLEINAIR_RETURN_IF_ERROR(Complete(&options));
-  PLEINAIR_ASSIGN_OR_RETURN(const Shard shard, ShardOf(options.shard));
+  PLEINAIR_ASSIGN_OR_RETURN(const Shard shard, ParseShard(options.shard));
   const auto chunks = static_cast<std::int64_t>(PlanChunks(options.config).size());
   PLEINAIR_ASSIGN_OR_RETURN(const RecordParts parts,
                             RecordParts::Open(options.output, options.config, chunks));

@@ -14,8 +14,11 @@ struct ReplayArguments {
   std::string command = "replay";  ///< Words after `pleinair`.
   ReplayOptions options;           ///< Options that need no conversion.
   struct Paths {
-    std::string recording, output, scene, calibration;
+    std::vector<std::string> recordings;  ///< As given.
+    std::string recording;                ///< One of them.
+    std::string output, scene, calibration;
   } paths;
+  std::string shard;  ///< Part of several recordings; empty: all.
   std::string size;
   std::vector<std::string> exports;
   std::vector<double> fog;
@@ -27,8 +30,9 @@ struct ReplayArguments {
     std::optional<std::int64_t> frame;
     std::optional<double> from_s, to_s;
   } range;
-  bool frames = false;
-  bool no_video = false;
+  struct Written {
+    bool frames = false, no_video = false;
+  } written;
   bool json = false;
   struct Research {
     std::string shadows = "ours";

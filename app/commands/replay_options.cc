@@ -9,10 +9,13 @@ namespace pleinair::app {
 
 void AddReplayOptions(CLI::App& command, ReplayArguments& arguments) {
   command
-      .add_option("RECORDING", arguments.paths.recording,
-                  "Folder of a recording (pleinair's own or EuRoC's), a film, or a picture")
+      .add_option("RECORDING", arguments.paths.recordings,
+                  "Folder of a project or recording (pleinair's own or EuRoC's), a film, or a "
+                  "picture; several: each gets its own folder in the output folder")
       ->required();
   command.add_option("-o,--output", arguments.paths.output, "Folder for the results")->required();
+  command.add_option("--shard", arguments.shard,
+                     "Compose every N-th of several recordings, from the I-th: I/N");
   command.add_option("--scene", arguments.paths.scene,
                      "Scene file (TOML or JSON) instead of the recording's own");
   command.add_option("--calibration", arguments.paths.calibration,
@@ -33,7 +36,7 @@ void AddReplayOptions(CLI::App& command, ReplayArguments& arguments) {
                   "End with the last frame at or before this time, in seconds of the recording")
       ->check(NumberRange(0.0, kMaxTime_s))
       ->excludes(frame);
-  command.add_flag("--frames", arguments.frames, "Also write every frame as a PNG picture");
+  command.add_flag("--frames", arguments.written.frames, "Also write every frame as a PNG picture");
   command
       .add_option("--export", arguments.exports,
                   "Also write the camera's trajectory for other programs: gltf (camera.glb), "
@@ -76,7 +79,7 @@ void AddReplayOptions(CLI::App& command, ReplayArguments& arguments) {
                   "Frame from whose camera the time-lapse is seen; default: the middle one")
       ->needs(time_lapse)
       ->check(CLI::NonNegativeNumber);
-  command.add_flag("--no-video", arguments.no_video, "Do not write composite.mp4");
+  command.add_flag("--no-video", arguments.written.no_video, "Do not write composite.mp4");
   command.add_flag("--json", arguments.json, "Print a summary as one JSON object");
 }
 

@@ -4,13 +4,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "app/options/picture_size.h"
+#include "app/options/shard_option.h"
+#include "app/replay/output_names.h"
 #include "app/replay/report/report_json.h"
+#include "app/terminal/interrupt.h"
 #include "gl/shader_library.h"
 #include "shadows/shadow_method.h"
 
@@ -48,7 +54,7 @@ std::string CommandText(const ReplayArguments& arguments) {
   if (arguments.range.frame) text += fmt::format(" --frame {}", *arguments.range.frame);
   if (arguments.range.from_s) text += fmt::format(" --from {}", *arguments.range.from_s);
   if (arguments.range.to_s) text += fmt::format(" --to {}", *arguments.range.to_s);
-  if (arguments.frames) text += " --frames";
+  if (arguments.written.frames) text += " --frames";
   if (!arguments.size.empty()) text += " --size " + arguments.size;
   for (std::size_t i = 0; i < arguments.exports.size(); ++i) {
     text += (i == 0 ? " --export " : ",") + arguments.exports[i];
@@ -94,7 +100,7 @@ std::string CommandText(const ReplayArguments& arguments) {
   if (!arguments.research.shader_directory.empty()) {
     text += " --shader-dir " + Quoted(arguments.research.shader_directory);
   }
-  if (arguments.no_video) text += " --no-video";
+  if (arguments.written.no_video) text += " --no-video";
   return text;
 }
 
@@ -145,8 +151,8 @@ Result<void> Run(ReplayArguments& arguments) {
   PLEINAIR_RETURN_IF_ERROR(SetRange(arguments, &options.range));
   // A single picture is no video.
   const bool is_still = arguments.range.frame.has_value();
-  options.write.frames = arguments.frames || is_still;
-  options.write.video = !arguments.no_video && !is_still;
+  options.write.frames = arguments.written.frames || is_still;
+  options.write.video = !arguments.written.no_video && !is_still;
   options.command = CommandText(arguments);
   PLEINAIR_ASSIGN_OR_RETURN(const ReplayReport report, Replay(options));
   if (arguments.json) {
@@ -166,10 +172,38 @@ Result<void> Run(ReplayArguments& arguments) {
   return {};
 }
 
+/// Composes several recordings. One that fails is reported, and the others are composed.
+Result<void> RunSeveral(const ReplayArguments& arguments) {
+  PLEINAIR_ASSIGN_OR_RETURN(const Shard shard, ParseShard(arguments.shard));
+  PLEINAIR_ASSIGN_OR_RETURN(const std::vector<std::string> names,
+                            OutputNames(arguments.paths.recordings));
+  std::size_t failed = 0, tried = 0;
+  for (std::size_t i = static_cast<std::size_t>(shard.index) - 1; i < names.size();
+       i += static_cast<std::size_t>(shard.count)) {
+    ReplayArguments one = arguments;
+    one.paths.recording = arguments.paths.recordings[i];
+    one.paths.output = (std::filesystem::path(arguments.paths.output) / names[i]).string();
+    ++tried;
+    const Result<void> done = Run(one);
+    if (done) continue;
+    if (InterruptGuard::Interrupted()) return done;
+    ++failed;
+    std::cerr << "pleinair: " << OneLine(done.error().Message()) << '\n';
+  }
+  if (failed == 0) return {};
+  return SystemError(arguments.paths.output,
+                     fmt::format("{} of {} recordings were not composed", failed, tried),
+                     "repair them and repeat the command");
+}
+
 }  // namespace
 
 Result<void> RunReplay(ReplayArguments& arguments) {
   try {
+    if (arguments.paths.recordings.size() != 1 || !arguments.shard.empty()) {
+      return RunSeveral(arguments);
+    }
+    arguments.paths.recording = arguments.paths.recordings.front();
     return Run(arguments);
   } catch (const std::exception& error) {
     return SystemError("", std::string("replay failed: ") + error.what(),
