@@ -117,7 +117,7 @@ Result<CalibrationBoard> BoardOf(const BoardOptions& options) {
   if (given != 1) {
     return InputError(
         "", given == 0 ? "the board in the images is not given" : "more than one board is named",
-        "give one of --board BOARD.json, --chessboard 9x6, --charuco 8x6");
+        "give one of --board BOARD.json, --chessboard 9x6, --charuco 8x6, or --marker sg");
   }
   if (!options.dictionary.empty() && options.charuco.empty()) {
     return InputError("--dictionary", "is for --charuco alone", "leave it out");

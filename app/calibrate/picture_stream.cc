@@ -42,8 +42,9 @@ class PictureFiles final : public PictureStream {
 
 class Film final : public PictureStream {
  public:
-  Film(std::string name, std::unique_ptr<devices::FrameSource> frames)
-      : name_(std::move(name)), frames_(std::move(frames)) {}
+  Film(std::string name, std::unique_ptr<devices::FrameSource> frames,
+       std::optional<double> focal_length_35mm)
+      : name_(std::move(name)), frames_(std::move(frames)), focal_length_35mm_(focal_length_35mm) {}
 
   Result<std::optional<NamedPicture>> Next() override {
     PLEINAIR_ASSIGN_OR_RETURN(auto frame, frames_->Next());
@@ -52,10 +53,12 @@ class Film final : public PictureStream {
   }
   std::optional<std::int64_t> Count() const override { return frames_->FrameCount(); }
   bool is_film() const override { return true; }
+  std::optional<double> FocalLength35mm() const override { return focal_length_35mm_; }
 
  private:
   const std::string name_;
   std::unique_ptr<devices::FrameSource> frames_;
+  const std::optional<double> focal_length_35mm_;
 };
 
 class CameraStream final : public PictureStream {
@@ -141,10 +144,11 @@ Result<std::unique_ptr<PictureStream>> OpenCamera(const devices::CameraUri& uri,
 Result<std::unique_ptr<PictureStream>> OpenFilm(const fs::path& file) {
   if (devices::IsFramePack(file)) {
     PLEINAIR_ASSIGN_OR_RETURN(devices::OpenedFramePack pack, devices::OpenFramePack(file, {}));
-    return std::make_unique<Film>(file.string(), std::move(pack.frames));
+    return std::make_unique<Film>(file.string(), std::move(pack.frames), std::nullopt);
   }
   PLEINAIR_ASSIGN_OR_RETURN(devices::OpenedVideo video, devices::OpenVideo(file, {}));
-  return std::make_unique<Film>(file.string(), std::move(video.frames));
+  return std::make_unique<Film>(file.string(), std::move(video.frames),
+                                video.facts.tags.focal_length_35mm);
 }
 
 /// Opens one source: images, which are added to `files`, or a video.

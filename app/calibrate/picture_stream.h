@@ -29,6 +29,8 @@ class PictureStream {
   virtual bool is_film() const = 0;
   /// True for a camera, which never ends by itself.
   virtual bool is_live() const { return false; }
+  /// Focal length by the film's tags, for 35 mm film; nothing if it has none.
+  virtual std::optional<double> FocalLength35mm() const { return std::nullopt; }
 };
 
 /// Opens the user's sources: images; a folder with images, such as `frames` of a recording; a

@@ -14,6 +14,7 @@
 #include "app/calibrate/board_options.h"
 #include "app/calibrate/calibration_drawings.h"
 #include "app/calibrate/calibration_page.h"
+#include "app/calibrate/film_lens.h"
 #include "app/calibrate/view_collection.h"
 #include "app/commands/command.h"
 #include "app/options/number_range.h"
@@ -36,12 +37,16 @@ constexpr const char* kCalibrateExamples =
     "  pleinair calibrate --board board.json photos/ -o camera.json --report lens.html\n"
     "  pleinair calibrate --charuco 8x6 photos/*.jpg -o camera.json\n"
     "  pleinair calibrate --chessboard 9x6 film.mp4 --opencv camera.yaml --ros camera_info.yaml\n"
+    "  pleinair calibrate walk.mov --marker sg -o camera.json\n"
+    "      without a board, from the marker that the film shows from several sides\n"
     "  pleinair calibrate --charuco 8x6 v4l2:/dev/video0 -o camera.json\n"
     "      picks views while you move the board, until it has enough or you press Ctrl-C\n"
     "Take 10 to 20 images of the whole board: near and far, tilted by 20 to 45 degrees in "
     "several\n"
     "directions, in every corner of the image, with focus and zoom held. Views that do not\n"
     "determine the lens are refused with the reasons. docs/guide/calibrate.md explains more.";
+
+constexpr int kBoardViews = 40, kMarkerFilmViews = 120;
 
 /// A file to write and its format.
 struct Output {
@@ -54,6 +59,7 @@ struct Output {
 struct CalibrateOptions {
   std::vector<std::string> sources;
   BoardOptions board;
+  std::vector<std::string> marker;  ///< Families; empty: a board is seen.
   std::string model = "auto";
   std::vector<Output> outputs = {
       {"-o,--output", "pleinair's own format (.json)", CalibrationForm::kOwn, ""},
@@ -64,7 +70,7 @@ struct CalibrateOptions {
       {"--euroc", "EuRoC's sensor.yaml", CalibrationForm::kEuroc, ""}};
   std::string report, coverage, size;
   std::optional<double> seconds;
-  int views = 40;
+  std::optional<int> views;
   bool json = false;
 };
 
@@ -149,13 +155,15 @@ Result<void> WriteCoverage(const std::string& file, const LensCalibration& calib
   return exports::WritePng(file, exports::RasterizeDrawing(drawing, kWidth_px).view());
 }
 
-Result<void> Write(const CalibrateOptions& options, const LensCalibration& calibration,
-                   const Collection& collection, const tracker::CalibrationBoard& board) {
-  // All texts first: if a format cannot store the lens, no file is written.
-  std::vector<std::pair<std::string, std::string>> texts;
+/// File names and contents.
+using Texts = std::vector<std::pair<std::string, std::string>>;
+
+Result<Texts> CalibrationTexts(const CalibrateOptions& options, const CameraModel& camera,
+                               const std::map<std::string, double>& notes) {
+  Texts texts;
   for (const Output& output : options.outputs) {
     if (output.file.empty()) continue;
-    auto text = devices::CalibrationText(calibration.fit.camera, output.form, Notes(calibration));
+    auto text = devices::CalibrationText(camera, output.form, notes);
     if (!text) {
       Error error = text.error();
       error.where = output.file;
@@ -163,6 +171,21 @@ Result<void> Write(const CalibrateOptions& options, const LensCalibration& calib
     }
     texts.emplace_back(output.file, *std::move(text));
   }
+  return texts;
+}
+
+Result<void> WriteTexts(const Texts& texts) {
+  for (const auto& [file, text] : texts) {
+    PLEINAIR_RETURN_IF_ERROR(WriteFileAtomically(file, text));
+  }
+  return {};
+}
+
+Result<void> Write(const CalibrateOptions& options, const LensCalibration& calibration,
+                   const Collection& collection, const tracker::CalibrationBoard& board) {
+  // All texts first: if a format cannot store the lens, no file is written.
+  PLEINAIR_ASSIGN_OR_RETURN(Texts texts,
+                            CalibrationTexts(options, calibration.fit.camera, Notes(calibration)));
   if (!options.report.empty()) {
     CalibrationFacts facts;
     facts.command = "pleinair calibrate";
@@ -175,9 +198,7 @@ Result<void> Write(const CalibrateOptions& options, const LensCalibration& calib
     facts.with_board = static_cast<int>(collection.views.size());
     texts.emplace_back(options.report, CalibrationPage(facts, calibration, collection.views));
   }
-  for (const auto& [file, text] : texts) {
-    PLEINAIR_RETURN_IF_ERROR(WriteFileAtomically(file, text));
-  }
+  PLEINAIR_RETURN_IF_ERROR(WriteTexts(texts));
   return options.coverage.empty() ? Result<void>() : WriteCoverage(options.coverage, calibration);
 }
 
@@ -259,15 +280,48 @@ void PrintCalibration(const LensCalibration& calibration, const Collection& coll
   }
 }
 
+/// Errors (input): options that are for boards.
+Result<void> CheckMarkerOptions(const CalibrateOptions& options) {
+  const BoardOptions& board = options.board;
+  const std::pair<const char*, bool> for_boards[] = {
+      {"--board", !board.description.empty()},      {"--chessboard", !board.chessboard.empty()},
+      {"--charuco", !board.charuco.empty()},        {"--dictionary", !board.dictionary.empty()},
+      {"--square-mm", board.square_mm.has_value()}, {"--report", !options.report.empty()},
+      {"--coverage", !options.coverage.empty()},    {"--model", options.model != "auto"}};
+  for (const auto& [name, given] : for_boards) {
+    if (given) return InputError(name, "is for boards, not for --marker", "leave one of them out");
+  }
+  return {};
+}
+
+/// Calibrates from the markers of a film instead of a board.
+Result<void> CalibrateFromMarkers(const CalibrateOptions& options) {
+  PLEINAIR_RETURN_IF_ERROR(CheckMarkerOptions(options));
+  PLEINAIR_ASSIGN_OR_RETURN(const devices::FormatRequest requested, WishOf(options));
+  const InterruptGuard guard;
+  PLEINAIR_ASSIGN_OR_RETURN(const auto pictures, OpenPictures(options.sources, requested));
+  tracker::MarkerViewOptions views;
+  views.families = options.marker;
+  views.max_views = static_cast<std::size_t>(options.views.value_or(kMarkerFilmViews));
+  PLEINAIR_ASSIGN_OR_RETURN(const FilmLens film,
+                            EstimateFilmLens(*pictures, options.sources.front(), views));
+  PLEINAIR_ASSIGN_OR_RETURN(const Texts texts,
+                            CalibrationTexts(options, film.lens.camera, FilmLensNotes(film)));
+  PLEINAIR_RETURN_IF_ERROR(WriteTexts(texts));
+  std::cout << (options.json ? FilmLensJson(film).dump() + "\n" : FilmLensText(film));
+  return {};
+}
+
 Result<void> RunCalibrate(const CalibrateOptions& options) {
   PLEINAIR_RETURN_IF_ERROR(CheckOutputs(options));
+  if (!options.marker.empty()) return CalibrateFromMarkers(options);
   PLEINAIR_ASSIGN_OR_RETURN(const tracker::CalibrationBoard board, BoardOf(options.board));
   PLEINAIR_ASSIGN_OR_RETURN(const devices::FormatRequest requested, WishOf(options));
   PLEINAIR_ASSIGN_OR_RETURN(const auto finder, tracker::BoardFinder::Create(board));
   const InterruptGuard guard;
   PLEINAIR_ASSIGN_OR_RETURN(const auto pictures, OpenPictures(options.sources, requested));
   CollectionOptions collection_options;
-  collection_options.max_views = options.views;
+  collection_options.max_views = options.views.value_or(kBoardViews);
   collection_options.seconds = options.seconds;
   PLEINAIR_ASSIGN_OR_RETURN(Collection collection,
                             CollectViews(*pictures, *finder, collection_options));
@@ -289,7 +343,8 @@ Result<void> RunCalibrate(const CalibrateOptions& options) {
 
 void AddCalibrateCommand(CLI::App& app, CommandResult& result) {
   auto options = std::make_shared<CalibrateOptions>();
-  CLI::App* command = app.add_subcommand("calibrate", "Calibrate a camera from views of a board");
+  CLI::App* command =
+      app.add_subcommand("calibrate", "Calibrate a camera from views of a board or a marker");
   command->footer(kCalibrateExamples);
   command
       ->add_option(
@@ -297,6 +352,13 @@ void AddCalibrateCommand(CLI::App& app, CommandResult& result) {
           "Images, a folder of them, a film, or a camera (v4l2:..., libcamera:..., aravis:...)")
       ->required();
   AddBoardOptions(*command, options->board);
+  command
+      ->add_option("--marker", options->marker,
+                   "Calibrate from the scene's own markers, of these families, comma-separated "
+                   "(sg, tag36h11, ...)")
+      ->delimiter(',')
+      ->expected(1)
+      ->type_name("FAMILY");
   for (Output& output : options->outputs) {
     command->add_option(output.option, output.file, output.help)->type_name("F");
   }
@@ -311,9 +373,10 @@ void AddCalibrateCommand(CLI::App& app, CommandResult& result) {
       ->check(CLI::IsMember({"auto", "pinhole", "radtan4", "radtan5", "rational", "equidistant"}))
       ->type_name("KIND")
       ->capture_default_str();
-  command->add_option("--views", options->views, "Maximum number of views from a film or camera")
-      ->check(CLI::Range(tracker::kMinViews, 200))
-      ->capture_default_str();
+  command
+      ->add_option("--views", options->views,
+                   "Maximum number of views from a film or camera; default: 40, with --marker 120")
+      ->check(CLI::Range(tracker::kMinViews, 200));
   command->add_option("--seconds", options->seconds, "Maximum time with a camera")
       ->check(NumberRange(1.0, 36'000.0));
   command->add_option("--size", options->size, "Image size to request from a camera")
