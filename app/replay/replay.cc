@@ -11,6 +11,7 @@
 #include "app/replay/compose_frames.h"
 #include "app/replay/draw_day.h"
 #include "app/replay/estimate_light.h"
+#include "app/replay/film_calibration.h"
 #include "app/replay/find_markers.h"
 #include "app/replay/placement_warnings.h"
 #include "app/replay/replay_state.h"
@@ -70,6 +71,7 @@ Result<devices::Recording> Prepare(ReplayState& state) {
           camera, *recording.scene,
           {.composer = options.composer, .light = std::move(light), .image_size = options.size}));
   Describe(recording, state, &state.report);
+  if (!recording.camera_note.empty()) state.report.warnings.push_back(recording.camera_note);
   return recording;
 }
 
@@ -169,7 +171,14 @@ Result<ReplayReport> Replay(const ReplayOptions& options) {
   PLEINAIR_RETURN_IF_ERROR(CheckLightCache(options.light.cache));
   const InterruptGuard guard;
   PLEINAIR_ASSIGN_OR_RETURN(OutputFolder folder, OutputFolder::Create(options.output));
-  ReplayState state{.options = options, .folder = std::move(folder)};
+  PLEINAIR_ASSIGN_OR_RETURN(const auto calibration, CalibrateFromFilm(options, folder));
+  ReplayOptions calibrated = options;
+  if (calibration) calibrated.calibration = calibration->file;
+  ReplayState state{.options = calibrated, .folder = std::move(folder)};
+  if (calibration) {
+    state.report.warnings.push_back(calibration->sentence);
+    state.report.files.outputs.emplace_back(calibration->file.filename().string());
+  }
   if (const auto done = Run(state); !done) {
     return tl::make_unexpected(state.folder.InTermsOfTarget(done.error()));
   }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "devices/calibration/calibration.h"
+#include "devices/calibration/fitted_camera.h"
 #include "devices/images/image_file.h"
 #include "devices/recordings/euroc.h"
 #include "devices/recordings/frame_pack.h"
@@ -258,8 +259,8 @@ Result<Recording> OpenPlainFile(const fs::path& file, const RecordingOptions& op
   }
   if (!options.calibration) {
     return InputError(file.string(), "is a plain file, which has no lens calibration",
-                      "give --calibration FILE (docs/guide/reference/recordings.md), or name a "
-                      "recording's folder");
+                      "give --calibration FILE, for example that of 'pleinair calibrate " +
+                          file.string() + " --marker sg', or name a recording's folder");
   }
   Recording recording;
   recording.path = file;
@@ -274,9 +275,12 @@ Result<Recording> OpenPlainFile(const fs::path& file, const RecordingOptions& op
     PLEINAIR_ASSIGN_OR_RETURN(recording.frames, OpenImageSequence({{file, 0, std::nullopt}}, size));
     return recording;
   }
-  VideoMetadata facts;
-  facts.size = size;
-  PLEINAIR_ASSIGN_OR_RETURN(OpenedVideo video, OpenVideo(file, facts));
+  PLEINAIR_ASSIGN_OR_RETURN(OpenedVideo video, OpenVideo(file, {}));
+  PLEINAIR_ASSIGN_OR_RETURN(
+      FittedCamera fitted,
+      FitCamera(recording.camera, video.size, video.facts.clockwise_deg, file.string()));
+  recording.camera = fitted.camera;
+  recording.camera_note = std::move(fitted.note);
   recording.frame_rate_hz = video.frame_rate_hz;
   recording.curve = video.curve;
   if (video.start_s) recording.sound = RecordedSound{file, *video.start_s};

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "base/camera_model.h"
 #include "base/error.h"
@@ -31,6 +32,7 @@ struct RecordedSound {
 struct Recording {
   std::filesystem::path path;
   CameraModel camera;
+  std::string camera_note;  ///< How the calibration was fitted to the film; empty: it was not.
   std::optional<scene::SceneDescription> scene;
   double frame_rate_hz = 0.0;
   bool is_photo = false;               ///< A single photograph.
@@ -45,7 +47,8 @@ struct Recording {
 /// Opens one of three kinds of recordings: a folder in the project's format (recording.json,
 /// scene.json or both; docs/guide/reference/recordings.md), an EuRoC-style folder
 /// (mav0/cam0/data.csv and sensor.yaml, at any of these levels), or a plain video file with
-/// `options.calibration`. Every frame must have the calibration's size.
+/// `options.calibration`. Every frame must have the calibration's size; for a plain video, it is
+/// scaled and turned where possible (FitCamera()).
 ///
 /// The scene of a folder is its scene.toml, else its scene.json, else the place, time and marker in
 /// recording.json together with phantom.obj and object.obj in the same folder. Ground truth in

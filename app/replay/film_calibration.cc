@@ -1,0 +1,65 @@
+#include "app/replay/film_calibration.h"
+
+#include <memory>
+#include <system_error>
+#include <utility>
+
+#include "app/calibrate/film_lens.h"
+#include "app/calibrate/picture_stream.h"
+#include "base/atomic_file.h"
+#include "devices/calibration/calibration_text.h"
+#include "devices/images/image_file.h"
+#include "files/text_file.h"
+#include "scene/scene_facts.h"
+
+namespace pleinair::app {
+namespace {
+
+bool IsFilm(const std::filesystem::path& file) {
+  std::error_code error;
+  return std::filesystem::is_regular_file(file, error) && file.extension() != ".json" &&
+         file.extension() != ".mcap" && !devices::IsImageFile(file);
+}
+
+/// The families to look for: the scene's, or those that replay looks for.
+Result<tracker::MarkerViewOptions> ViewsOfScene(const ReplayOptions& options) {
+  tracker::MarkerViewOptions views;
+  if (!options.scene) {
+    return InputError(options.recording.string(), "has no scene",
+                      "write one (docs/guide/reference/recordings.md) and give it with --scene");
+  }
+  PLEINAIR_ASSIGN_OR_RETURN(const std::string bytes,
+                            files::ReadWholeFile(*options.scene, files::kMaxDescriptionBytes));
+  PLEINAIR_ASSIGN_OR_RETURN(const scene::SceneFacts facts,
+                            scene::ParseScene(bytes, options.scene->string()));
+  if (facts.marker.target) {
+    return InputError(options.recording.string(),
+                      "has no lens calibration, and an image target does not give one",
+                      "calibrate with a board (pleinair board), and give --calibration FILE");
+  }
+  if (facts.marker.family) views.families = {*facts.marker.family};
+  return views;
+}
+
+}  // namespace
+
+Result<std::optional<FilmCalibration>> CalibrateFromFilm(const ReplayOptions& options,
+                                                         const OutputFolder& folder) {
+  if (options.calibration || !IsFilm(options.recording)) return std::nullopt;
+  PLEINAIR_ASSIGN_OR_RETURN(const tracker::MarkerViewOptions views, ViewsOfScene(options));
+  const std::string name = options.recording.string();
+  PLEINAIR_ASSIGN_OR_RETURN(const auto pictures, OpenPictures({name}, {}));
+  PLEINAIR_ASSIGN_OR_RETURN(const FilmLens film, EstimateFilmLens(*pictures, name, views));
+  PLEINAIR_ASSIGN_OR_RETURN(
+      const std::string text,
+      devices::CalibrationText(film.lens.camera, devices::CalibrationForm::kOwn,
+                               FilmLensNotes(film)));
+  FilmCalibration calibration{
+      folder.staging() / "camera_from_film.json",
+      "No calibration was given. The film itself gives it (camera_from_film.json): " +
+          FilmLensSentence(film) + "."};
+  PLEINAIR_RETURN_IF_ERROR(WriteFileAtomically(calibration.file, text));
+  return calibration;
+}
+
+}  // namespace pleinair::app
