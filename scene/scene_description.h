@@ -44,6 +44,20 @@ struct MarkerDescription {
   double board_size_m = 0.0;   ///< Edge of the white margin around the black square, metres.
 };
 
+/// Where the centre of a marker is in the coordinates of the reference marker.
+struct AnchorPlace {
+  Vec3 translation_m;
+  Vec3 rotation_deg;  ///< About the marker's x, then y, then z axis.
+};
+
+/// A further marker that does not move against the reference marker.
+struct AnchorDescription {
+  std::string family;
+  int id = 0;
+  double size_m = 0.0;               ///< Edge of the outer black square.
+  std::optional<AnchorPlace> place;  ///< Unset: found in the film.
+};
+
 /// Vertex normals of a model: from its file, per face, or averaged per vertex.
 enum class Shading { kFromFile, kFlat, kSmooth };
 
@@ -75,6 +89,7 @@ struct SceneDescription {
   std::filesystem::path file;  ///< The file it was read from, for messages.
   PlaceTime place_time;
   MarkerDescription marker;
+  std::vector<AnchorDescription> anchors;
   std::vector<ModelReference> phantoms;  ///< Proxy geometry of real surfaces, see
                                          ///< docs/conventions.md.
   std::vector<ModelReference> objects;   ///< Virtual objects.

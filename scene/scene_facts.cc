@@ -1,7 +1,9 @@
 #include "scene/scene_facts.h"
 
 #include <cmath>
+#include <set>
 #include <system_error>
+#include <utility>
 
 #include "scene/magnetic_declination.h"
 
@@ -126,6 +128,54 @@ Result<PlaceTime> CompletePlaceTime(const PlaceTimeFacts& facts, const std::stri
   return PlaceTime{*facts.latitude_deg, *facts.longitude_deg, height_m, *facts.start};
 }
 
+Result<std::vector<AnchorDescription>> CompleteAnchors(const std::vector<AnchorFacts>& facts,
+                                                       const MarkerDescription& marker,
+                                                       const std::string& name) {
+  constexpr std::size_t kMaxAnchors = 64;
+  constexpr const char* kOurFamily = "sg";
+  std::vector<AnchorDescription> anchors;
+  if (facts.empty()) return anchors;
+  if (marker.target || !marker.id) {
+    return InputError(name, "has anchors beside a marker without a number",
+                      "add marker.id, the number of the marker that the models are placed on");
+  }
+  if (facts.size() > kMaxAnchors) {
+    return InputError(name, "has more than 64 anchors", "keep those that the film shows");
+  }
+  const std::string family = marker.family.value_or(kOurFamily);
+  std::set<std::pair<std::string, int>> taken{{family, *marker.id}};
+  for (const AnchorFacts& each : facts) {
+    AnchorDescription anchor{each.family.value_or(family),
+                             each.id.value_or(-1),
+                             each.size_m.value_or(marker.size_m),
+                             {}};
+    const std::string number = std::to_string(anchor.id);
+    if (!each.id) return InputError(name, "has an anchor without an id", "add the marker's number");
+    if (!taken.insert({anchor.family, anchor.id}).second) {
+      return InputError(name, "has the marker " + anchor.family + " " + number + " twice",
+                        "each marker is the reference marker or one anchor");
+    }
+    if (!Within(anchor.size_m, 1e-4, 1e3)) {
+      return InputError(name, "has an anchor " + number + " of an impossible size",
+                        "size_mm is the edge of the outer black square, 0.1 to 1000000");
+    }
+    if (each.rotation_deg && !each.translation_m) {
+      return InputError(name, "has an anchor " + number + " with rotation_deg alone",
+                        "add its translation_m, or leave both out: the film gives them");
+    }
+    if (each.translation_m) {
+      anchor.place = AnchorPlace{*each.translation_m, each.rotation_deg.value_or(Vec3{})};
+      for (const Vec3& v : {anchor.place->translation_m, anchor.place->rotation_deg}) {
+        if (Within(v.x, -1e4, 1e4) && Within(v.y, -1e4, 1e4) && Within(v.z, -1e4, 1e4)) continue;
+        return InputError(name, "places the anchor " + number + " beyond ten thousand metres",
+                          "translation_m is its centre in the marker's coordinates");
+      }
+    }
+    anchors.push_back(std::move(anchor));
+  }
+  return anchors;
+}
+
 bool IsReflectance(LinearRgb color) {
   return Within(color.r, 0.0, 1.0) && Within(color.g, 0.0, 1.0) && Within(color.b, 0.0, 1.0);
 }
@@ -246,6 +296,7 @@ Result<SceneDescription> CompleteScene(const SceneFacts& facts, const std::files
   scene.file = file;
   PLEINAIR_ASSIGN_OR_RETURN(scene.place_time, CompletePlaceTime(facts.place_time, name));
   PLEINAIR_ASSIGN_OR_RETURN(scene.marker, CompleteMarker(facts.marker, scene.place_time, name));
+  PLEINAIR_ASSIGN_OR_RETURN(scene.anchors, CompleteAnchors(facts.anchors, scene.marker, name));
   if (scene.marker.target) {
     scene.marker.target = (file.parent_path() / *scene.marker.target).lexically_normal();
   }

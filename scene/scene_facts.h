@@ -29,6 +29,14 @@ struct MarkerFacts {
   std::optional<bool> upright;
 };
 
+/// Further marker in one scene file, for AnchorDescription.
+struct AnchorFacts {
+  std::optional<std::string> family;
+  std::optional<int> id;
+  std::optional<double> size_m;
+  std::optional<Vec3> translation_m, rotation_deg;
+};
+
 /// Level ground in one scene file.
 struct GroundFacts {
   bool is_given = false;        ///< [ground]
@@ -42,6 +50,7 @@ struct GroundFacts {
 struct SceneFacts {
   PlaceTimeFacts place_time;
   MarkerFacts marker;
+  std::vector<AnchorFacts> anchors;
   std::vector<ModelReference> phantoms, objects;  ///< Paths as in the file, relative to the scene's
                                                   ///< folder.
   GroundFacts ground;

@@ -71,10 +71,26 @@ Result<void> ReadMarker(const TomlTable& marker, MarkerFacts* facts) {
   return {};
 }
 
+Result<std::vector<AnchorFacts>> ReadAnchors(const TomlTable& scene) {
+  std::vector<AnchorFacts> anchors;
+  PLEINAIR_ASSIGN_OR_RETURN(const std::vector<TomlTable> tables, scene.Tables("anchor"));
+  for (const TomlTable& table : tables) {
+    PLEINAIR_RETURN_IF_ERROR(
+        table.AllowOnly({"family", "id", "size_m", "size_mm", "translation_m", "rotation_deg"}));
+    AnchorFacts& anchor = anchors.emplace_back();
+    PLEINAIR_ASSIGN_OR_RETURN(anchor.family, table.Text("family"));
+    PLEINAIR_ASSIGN_OR_RETURN(anchor.id, table.Integer("id"));
+    PLEINAIR_ASSIGN_OR_RETURN(anchor.size_m, table.Length("size_m", "size_mm"));
+    PLEINAIR_ASSIGN_OR_RETURN(anchor.translation_m, table.Triple("translation_m"));
+    PLEINAIR_ASSIGN_OR_RETURN(anchor.rotation_deg, table.Triple("rotation_deg"));
+  }
+  return anchors;
+}
+
 Result<SceneFacts> ReadScene(const TomlTable& scene) {
   PLEINAIR_RETURN_IF_ERROR(
       scene.AllowOnly({"time", "cloudiness", "turbidity", "exposure_gain", "camera_response",
-                       "place", "marker", "ground", "box", "wall", "phantom", "object"}));
+                       "place", "marker", "anchor", "ground", "box", "wall", "phantom", "object"}));
   SceneFacts facts;
   PLEINAIR_ASSIGN_OR_RETURN(facts.place_time.start, ReadTime(scene, "time"));
   PLEINAIR_ASSIGN_OR_RETURN(const std::vector<TomlTable> places, scene.Tables("place"));
@@ -83,9 +99,10 @@ Result<SceneFacts> ReadScene(const TomlTable& scene) {
   PLEINAIR_ASSIGN_OR_RETURN(const std::vector<TomlTable> markers, scene.Tables("marker"));
   if (markers.size() > 1) {
     return scene.Fail("marker", "is given more than once",
-                      "keep the marker that the models are placed on: one anchors a scene");
+                      "keep the marker that the models are placed on; the others are [[anchor]]");
   }
   if (!markers.empty()) PLEINAIR_RETURN_IF_ERROR(ReadMarker(markers[0], &facts.marker));
+  PLEINAIR_ASSIGN_OR_RETURN(facts.anchors, ReadAnchors(scene));
   PLEINAIR_ASSIGN_OR_RETURN(facts.phantoms, ReadModels(scene, "phantom"));
   PLEINAIR_RETURN_IF_ERROR(ReadDescribedSurfaces(scene, &facts.phantoms));
   PLEINAIR_RETURN_IF_ERROR(ReadGround(scene, &facts.ground));

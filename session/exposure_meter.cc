@@ -3,12 +3,14 @@
 namespace pleinair::session {
 
 void ExposureMeter::Read(ImageView<const std::uint8_t> rgb, const CameraModel& camera,
-                         const Transform<Camera, Marker>& camera_from_marker,
+                         const std::optional<Transform<Camera, Marker>>& camera_from_marker,
                          LinearRgb marker_shade, const FollowedLight& followed,
                          LightSummary* summary) {
   using ExposureScaleSource = LightSummary::ExposureScaleSource;
   if (locked_ && !filter_.empty()) return;
-  const auto estimate = meter_ ? meter_->Measure(rgb, camera, camera_from_marker) : std::nullopt;
+  const auto estimate = meter_ && camera_from_marker
+                            ? meter_->Measure(rgb, camera, *camera_from_marker)
+                            : std::nullopt;
   if (estimate) {
     filter_.Add(estimate->exposure_scale * marker_shade / followed.marker_light, estimate->error);
     ++summary->exposures.estimates;

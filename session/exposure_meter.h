@@ -30,10 +30,11 @@ class ExposureMeter {
   void SetLocked(bool locked) { locked_ = locked; }
 
   /// Measures a frame and writes the result to `summary`. `marker_shade`: SkyState::marker_shade.
-  /// `followed`: how the frame's light differs from the meter's.
+  /// `camera_from_marker`: nothing where the frame
+  /// does not show the marker. `followed`: how the frame's light differs from the meter's.
   void Read(ImageView<const std::uint8_t> rgb, const CameraModel& camera,
-            const Transform<Camera, Marker>& camera_from_marker, LinearRgb marker_shade,
-            const FollowedLight& followed, LightSummary* summary);
+            const std::optional<Transform<Camera, Marker>>& camera_from_marker,
+            LinearRgb marker_shade, const FollowedLight& followed, LightSummary* summary);
 
  private:
   std::optional<compositor::MarkerLightMeter> meter_;

@@ -31,6 +31,7 @@ double RotationAngle(const Mat3& a, const Mat3& b) {
 void MarkerTracks::AddFrame(std::int64_t frame_index, std::int64_t timestamp_ns,
                             const std::vector<tracker::MarkerObservation>& marker_observations) {
   ++frames_;
+  frame_times_.push_back({frame_index, timestamp_ns});
   std::map<MarkerName, std::vector<Observation>> candidates;
   bool duplicates = false;
   for (const tracker::MarkerObservation& marker_observation : marker_observations) {
@@ -44,11 +45,11 @@ void MarkerTracks::AddFrame(std::int64_t frame_index, std::int64_t timestamp_ns,
           static_cast<std::uint8_t>(std::lround(std::clamp(seen, 0.0F, 1.0F) * 255.0F)));
     }
     const auto add = [&](const tracker::PoseSolution& solution) {
-      of_marker.push_back({frame_index, timestamp_ns, solution.camera_from_marker,
-                           solution.reprojection_rms_px, pose.ambiguity_ratio,
-                           marker_observation.detection.visible_fraction,
-                           marker_observation.detection.path,
-                           marker_observation.detection.visibility_side, visibility});
+      of_marker.push_back(
+          {frame_index, timestamp_ns, solution.camera_from_marker, solution.reprojection_rms_px,
+           pose.ambiguity_ratio, marker_observation.detection.visible_fraction,
+           marker_observation.detection.path, marker_observation.detection.visibility_side,
+           visibility, marker_observation.detection.corners_px});
     };
     add(pose.best);
     if (pose.alternative && pose.ambiguity_ratio > kAmbiguousRatio) add(*pose.alternative);
@@ -68,11 +69,12 @@ void MarkerTracks::AddFrame(std::int64_t frame_index, std::int64_t timestamp_ns,
 }
 
 void MarkerTracks::ForgetAllBut(std::size_t observations) {
-  for (auto& [marker, path] : tracks_) {
-    if (path.size() > observations) {
-      path.erase(path.begin(), path.end() - static_cast<std::ptrdiff_t>(observations));
-    }
-  }
+  const auto forget = [&](auto& all) {
+    if (all.size() <= observations) return;
+    all.erase(all.begin(), all.end() - static_cast<std::ptrdiff_t>(observations));
+  };
+  for (auto& [marker, path] : tracks_) forget(path);
+  forget(frame_times_);
 }
 
 bool MayBeReferenceMarker(const MarkerName& marker, const scene::MarkerDescription& declared) {

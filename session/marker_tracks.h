@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "base/frames.h"
+#include "base/vector.h"
 #include "scene/scene_description.h"
 #include "tracker/observation.h"
 
@@ -25,6 +27,19 @@ struct MarkerName {
 /// True if this marker may be the reference marker of a scene with this declaration.
 bool MayBeReferenceMarker(const MarkerName& marker, const scene::MarkerDescription& declared);
 
+/// What a pose rests on.
+enum class PoseSource {
+  kMarker,   ///< The marker itself, and others beside it.
+  kAnchors,  ///< Other markers of the scene alone (session/anchors.h).
+  kMotion    ///< The camera's motion before and after (session/path_gaps.h).
+};
+
+/// Time stamp of a frame.
+struct FrameTime {
+  std::int64_t frame_index = 0;
+  std::int64_t timestamp_ns = 0;  ///< Since the recording's start.
+};
+
 /// Observation of one marker in one frame. Its size is bounded for any image size.
 struct Observation {
   std::int64_t frame_index = 0;
@@ -37,6 +52,8 @@ struct Observation {
   /// Squares per side of the marker, and their visibility, 0…255; empty where unknown.
   int visibility_side = 0;
   std::vector<std::uint8_t> visibility{};
+  std::array<Vec2, 4> corners_px{};  ///< Clockwise from top-left on the upright marker.
+  PoseSource source = PoseSource::kMarker;
 };
 
 /// Observations of a recording's markers across its frames. They determine the reference marker and
@@ -63,6 +80,8 @@ class MarkerTracks {
   const std::map<MarkerName, std::vector<Observation>>& tracks() const { return tracks_; }
 
   std::int64_t frames() const { return frames_; }
+  /// Of all frames, with and without markers.
+  const std::vector<FrameTime>& frame_times() const { return frame_times_; }
   /// Frames with two or more observations of one marker.
   std::int64_t frames_with_duplicates() const { return frames_with_duplicates_; }
 
@@ -70,6 +89,7 @@ class MarkerTracks {
   scene::MarkerDescription declared_;
   std::map<MarkerName, std::vector<Observation>> tracks_;
   std::int64_t frames_ = 0;
+  std::vector<FrameTime> frame_times_;
   std::int64_t frames_with_duplicates_ = 0;
 };
 

@@ -1,5 +1,7 @@
 #include "session/pipeline.h"
 
+#include <algorithm>
+#include <cstdlib>
 #include <utility>
 
 #include "base/parallel_for.h"
@@ -13,7 +15,8 @@ namespace pleinair::session {
 
 Pipeline::Pipeline(const CameraModel& camera, const scene::SceneDescription& scene,
                    const PipelineOptions& options)
-    : output_camera_(
+    : camera_(camera),
+      output_camera_(
           ScaleCamera(camera, options.image_size.value_or(ImageSize{camera.width, camera.height}))),
       scene_(scene),
       hands_in_front_(options.light.hands_in_front),
@@ -62,6 +65,7 @@ Result<TrackedFrame> Pipeline::Track(const devices::Frame& frame) {
   tracked.lost = tracker_->Lost();
   tracked.warnings = tracker_->Warnings();
   if (refiner_) tracked.observations = refiner_->Measure(grey, std::move(tracked.observations));
+  ScaleAnchors(scene_, &tracked.observations);
   AddToTracks(frame, tracked.observations);
   return tracked;
 }
@@ -84,6 +88,7 @@ std::vector<TrackedFrame> Pipeline::Measure(std::span<FoundFrame> found) {
   if (refiner_) refiner_->Measure(seen);
   std::vector<TrackedFrame> tracked(found.size());
   for (std::size_t i = 0; i < found.size(); ++i) {
+    ScaleAnchors(scene_, &seen[i].observations);
     AddToTracks(found[i].frame, seen[i].observations);
     ProbeLight(found[i].frame);
     tracked[i] = {std::move(seen[i].observations), std::move(found[i].lost),
@@ -117,6 +122,19 @@ std::optional<CameraPose> Pipeline::PoseIn(const devices::Frame& last_tracked) c
   return CameraPose{*marker, last};
 }
 
+void Pipeline::FollowAnchors() {
+  const std::optional<MarkerName> marker = tracks_.ReferenceMarker();
+  if (!marker || scene_.anchors.empty()) return;
+  anchored_ = session::FollowAnchors(camera_, scene_, tracks_, *marker);
+}
+
+const std::vector<Observation>& Pipeline::Path() const {
+  static const std::vector<Observation> kNone;
+  if (!anchored_.observations.empty()) return anchored_.observations;
+  const std::optional<MarkerName> marker = tracks_.ReferenceMarker();
+  return marker ? tracks_.TrackOf(*marker) : kNone;
+}
+
 bool Pipeline::HasOutputSize(const devices::Frame& frame) const {
   return frame.rgb.width() == output_camera_.width && frame.rgb.height() == output_camera_.height;
 }
@@ -148,18 +166,29 @@ Result<ComposedFrame> Pipeline::Compose(ImageView<const std::uint8_t> rgb,
   const Observation& seen = pose->observation;
   compositor::MarkerVisibility visibility;
   if (hands_in_front_) visibility = VisibilityOf(scene_.marker, pose->marker, seen);
-  PLEINAIR_ASSIGN_OR_RETURN(composed.image,
-                            renderer_->Render(rgb, seen.camera_from_marker, time, visibility,
-                                              FollowedIn(seen.frame_index)));
+  PLEINAIR_ASSIGN_OR_RETURN(
+      composed.image, renderer_->Render(rgb, seen.camera_from_marker, time, visibility,
+                                        FollowedIn(seen), seen.source == PoseSource::kMarker));
   if (!renderer_->DrawsObjects()) return composed;
   composed.light = renderer_->light();
   composed.times = renderer_->times();
   return composed;
 }
 
-FollowedLight Pipeline::FollowedIn(std::int64_t frame_index) const {
+FollowedLight Pipeline::FollowedIn(const Observation& seen) const {
   const LightFollower* follower = renderer_->light_follower();
-  return follows_light_ && follower != nullptr ? follower->Of(frame_index) : FollowedLight{};
+  if (!follows_light_ || follower == nullptr) return {};
+  if (seen.source == PoseSource::kMarker) return follower->Of(seen.frame_index);
+  // The light is known where the marker is seen; the nearest such frame counts.
+  const std::optional<MarkerName> marker = tracks_.ReferenceMarker();
+  if (!marker) return {};
+  const std::vector<Observation>& track = tracks_.TrackOf(*marker);
+  const auto nearest =
+      std::min_element(track.begin(), track.end(), [&](const auto& a, const auto& b) {
+        return std::abs(a.frame_index - seen.frame_index) <
+               std::abs(b.frame_index - seen.frame_index);
+      });
+  return nearest == track.end() ? FollowedLight{} : follower->Of(nearest->frame_index);
 }
 
 UtcTime Pipeline::MomentOf(std::int64_t timestamp_ns) const {

@@ -16,6 +16,7 @@
 #include "compositor/composer_options.h"
 #include "devices/frame.h"
 #include "scene/scene_description.h"
+#include "session/anchors.h"
 #include "session/light_options.h"
 #include "session/light_summary.h"
 #include "session/marker_tracks.h"
@@ -111,6 +112,15 @@ class Pipeline {
   /// All observations of each marker so far.
   const MarkerTracks& tracks() const { return tracks_; }
 
+  /// After the last frame of a recording: finds the trajectory by all markers of a scene with
+  /// anchors. Does nothing for other scenes.
+  void FollowAnchors();
+  /// The trajectory that ComposeFrames() draws along: that of FollowAnchors(), or the observations
+  /// of the reference marker.
+  const std::vector<Observation>& Path() const;
+  /// How FollowAnchors() used the anchors.
+  const AnchorSummary& anchor_summary() const { return anchored_.summary; }
+
   /// Makes this marker the light meter for the next frames. Returns true if another one was it
   /// before. Compose() does so for the marker of its pose.
   bool MeterLightOn(const MarkerName& marker);
@@ -149,9 +159,9 @@ class Pipeline {
   /// Collects what a frame of a recording's first pass tells of its light.
   void ProbeLight(const devices::Frame& last_tracked);
   /// How the light of a frame differs from the estimated one.
-  FollowedLight FollowedIn(std::int64_t frame_index) const;
+  FollowedLight FollowedIn(const Observation& seen) const;
 
-  CameraModel output_camera_;
+  CameraModel camera_, output_camera_;  // Of the frames, and of composed images.
   scene::SceneDescription scene_;
   bool hands_in_front_;
   bool follows_light_;
@@ -159,6 +169,7 @@ class Pipeline {
   std::unique_ptr<tracker::Tracker> tracker_;
   std::unique_ptr<MarkerRefiner> refiner_;  // Null if markers are not refined.
   MarkerTracks tracks_;
+  AnchoredPath anchored_;
   std::unique_ptr<SceneRenderer> renderer_;
   std::optional<MarkerName> metered_marker_;  // The renderer's light meter.
 };

@@ -153,6 +153,10 @@ Result<void> TrackRecording(Pipeline& pipeline, devices::Recording recording,
   pass.times().Add(measuring_times);
   pass.times().Add(frames.Finish());
   if (done == 0) return InputError(name, "holds no frames", "record it again");
+  pass.times().Measure("follow anchors", [&] {
+    pipeline.FollowAnchors();
+    return 0;
+  });
   return {};
 }
 
@@ -217,7 +221,7 @@ Result<void> ComposeFrames(Pipeline& pipeline, devices::Recording recording,
   const std::string name = recording.path.string();
   const std::int64_t count = pipeline.tracks().frames();
   const std::optional<MarkerName> marker = pipeline.tracks().ReferenceMarker();
-  const std::vector<Observation>& path = PathOf(pipeline);
+  const std::vector<Observation>& path = pipeline.Path();
   FramePrefetcher frames(std::move(recording.frames));
   auto at = path.begin();
   for (std::int64_t done = 0;; ++done) {

@@ -8,9 +8,6 @@
 #include "sky/sky_model.h"
 
 namespace pleinair::session {
-namespace {
-
-/// Rotation about x, then y, then z.
 Mat3 RotationXyz(Vec3 degrees) {
   const auto about = [](int axis, double angle_deg) {
     const double c = std::cos(angle_deg * kRadiansPerDegree);
@@ -25,8 +22,6 @@ Mat3 RotationXyz(Vec3 degrees) {
   };
   return about(2, degrees.z) * about(1, degrees.y) * about(0, degrees.x);
 }
-
-}  // namespace
 
 Mat3 LinearOf(const ObjectPlace& place) {
   Mat3 linear = RotationXyz(place.rotation_deg);

@@ -21,6 +21,9 @@ struct ObjectPlace {
   bool operator==(const ObjectPlace&) const = default;
 };
 
+/// Rotation about x, then y, then z.
+Mat3 RotationXyz(Vec3 degrees);
+
 /// Rotation and scale of a placed object, marker from model coordinates.
 Mat3 LinearOf(const ObjectPlace& place);
 

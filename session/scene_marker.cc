@@ -60,6 +60,12 @@ Result<tracker::TrackerOptions> TrackingOf(const scene::SceneDescription& scene)
                                    : std::vector<std::string>{kSgFamily, kUsualTagFamily};
   options.marker_size_m = marker.size_m;
   if (may_be_sg && marker.id) options.sg.numbers_in_use = {*marker.id};
+  for (const scene::AnchorDescription& anchor : scene.anchors) {
+    if (std::ranges::count(options.families, anchor.family) == 0) {
+      options.families.push_back(anchor.family);
+    }
+    if (anchor.family == kSgFamily) options.sg.numbers_in_use.push_back(anchor.id);
+  }
   return options;
 }
 

@@ -251,15 +251,14 @@ Result<void> SceneRenderer::UpdateLight(UtcTime time) {
 }
 
 void SceneRenderer::UpdateExposureScale(ImageView<const std::uint8_t> rgb,
-                                        const Transform<Camera, Marker>& camera_from_marker,
+                                        const std::optional<Transform<Camera, Marker>>& marker,
                                         const FollowedLight& followed) {
   if (scene_.exposure_scale) {
     summary_.exposure_scale_source = LightSummary::ExposureScaleSource::kScene;
     summary_.exposure_scale = *scene_.exposure_scale * followed.exposure;
     return;
   }
-  exposure_.Read(rgb, camera_, camera_from_marker, light_->skies().marker_shade, followed,
-                 &summary_);
+  exposure_.Read(rgb, camera_, marker, light_->skies().marker_shade, followed, &summary_);
 }
 
 void SceneRenderer::SummarizeLight(const FollowedLight& followed) {
@@ -284,7 +283,7 @@ Result<void> SceneRenderer::UpdateCameraLook(ImageView<const std::uint8_t> rgb,
 Result<RgbImage> SceneRenderer::Render(ImageView<const std::uint8_t> rgb,
                                        const Transform<Camera, Marker>& camera_from_marker,
                                        UtcTime time, const compositor::MarkerVisibility& cover,
-                                       const FollowedLight& followed) {
+                                       const FollowedLight& followed, bool shows_marker) {
   times_ = {};
   if (!composer_) return CopyImage(rgb);
   auto start = Clock::now();
@@ -292,8 +291,10 @@ Result<RgbImage> SceneRenderer::Render(ImageView<const std::uint8_t> rgb,
   PLEINAIR_RETURN_IF_ERROR(composer_->SetLightMix(light_->in_use()->meshes, followed.mix));
   times_.light_ms = MillisecondsSince(start);
   start = Clock::now();
-  UpdateExposureScale(rgb, camera_from_marker, followed);
-  PLEINAIR_RETURN_IF_ERROR(UpdateCameraLook(rgb, camera_from_marker));
+  std::optional<Transform<Camera, Marker>> marker;
+  if (shows_marker) marker = camera_from_marker;
+  UpdateExposureScale(rgb, marker, followed);
+  if (marker) PLEINAIR_RETURN_IF_ERROR(UpdateCameraLook(rgb, *marker));
   SummarizeLight(followed);
   times_.meter_ms = MillisecondsSince(start);
   start = Clock::now();

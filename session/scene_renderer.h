@@ -118,11 +118,12 @@ class SceneRenderer {
 
   /// Returns the frame with the virtual objects in the light of `time`. Objects that cover the
   /// marker, by `cover`, are in front of the virtual objects. `followed`: how the frame's light
-  /// differs from the estimated one.
+  /// differs from the estimated one. `shows_marker`: false where the marker is not seen in the
+  /// frame, so that exposure and camera look stay.
   Result<RgbImage> Render(ImageView<const std::uint8_t> rgb,
                           const Transform<Camera, Marker>& camera_from_marker, UtcTime time,
                           const compositor::MarkerVisibility& cover = {},
-                          const FollowedLight& followed = {});
+                          const FollowedLight& followed = {}, bool shows_marker = true);
 
   const LightSummary& light() const { return summary_; }
   /// Of the last Render().
@@ -144,7 +145,7 @@ class SceneRenderer {
   Result<void> UpdateCameraLook(ImageView<const std::uint8_t> rgb,
                                 const Transform<Camera, Marker>& camera_from_marker);
   void UpdateExposureScale(ImageView<const std::uint8_t> rgb,
-                           const Transform<Camera, Marker>& camera_from_marker,
+                           const std::optional<Transform<Camera, Marker>>& marker,
                            const FollowedLight& followed);
 
   CameraModel camera_;

@@ -49,7 +49,8 @@ Result<void> WriteTrajectories(ReplayState& state) {
   };
   report.reference_marker = tracks.ReferenceMarker();
   if (report.reference_marker) {
-    report.path = tracks.TrackOf(*report.reference_marker);
+    report.path = state.pipeline->Path();
+    report.anchors = state.pipeline->anchor_summary();
     state.pipeline->MeterLightOn(*report.reference_marker);
   }
   PLEINAIR_RETURN_IF_ERROR(state.folder.MakeFolder("poses"));

@@ -58,6 +58,31 @@ bool AreToldApart(const std::vector<LightRow>& rows) {
          std::none_of(rows.begin(), rows.end(), is(Source::kTotalOnly));
 }
 
+std::vector<std::string> AnchorWarnings(const session::AnchorSummary& summary) {
+  std::vector<std::string> warnings;
+  for (const session::PlacedAnchor& anchor : summary.anchors) {
+    if (anchor.frames == 0) {
+      warnings.push_back(fmt::format("No frame shows the anchor {}.", anchor.marker.ToString()));
+    } else if (!anchor.reference_from_anchor) {
+      warnings.push_back(fmt::format(
+          "The anchor {} is not used: no frame shows it beside another marker, so its place is not "
+          "known. Film both together, or give its translation_m.",
+          anchor.marker.ToString()));
+    }
+  }
+  if (summary.by_anchors > 0) {
+    warnings.push_back(
+        fmt::format("{} frames have their pose from the anchors alone.", summary.by_anchors));
+  }
+  if (summary.filled > 0) {
+    warnings.push_back(fmt::format(
+        "{} frames show no marker and have their pose from the camera's motion before and after: "
+        "{} gaps of at most {:.2f} s.",
+        summary.filled, summary.gaps, summary.longest_gap_s));
+  }
+  return warnings;
+}
+
 }  // namespace
 
 std::vector<std::string> MarkerWarnings(const ReplayReport& report,
@@ -71,6 +96,9 @@ std::vector<std::string> MarkerWarnings(const ReplayReport& report,
     warnings.push_back(
         fmt::format("{} of {} frames show no marker {}: they are left as they were recorded.",
                     missing, report.film.frames, report.reference_marker->ToString()));
+  }
+  for (std::string& sentence : AnchorWarnings(report.anchors)) {
+    warnings.push_back(std::move(sentence));
   }
   if (marker_tracks.frames_with_duplicates() > 0) {
     warnings.push_back(

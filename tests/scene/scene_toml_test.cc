@@ -291,6 +291,40 @@ TEST(SceneToml, LettersOutsideOfQuotesAreAnErrorAndInsideThemAName) {
             "no error");
 }
 
+TEST(SceneToml, AnchorsAreFurtherMarkers) {
+  const std::string scene =
+      "time = 2025-09-14T13:05:00+02:00\n[place]\nlatitude_deg = 50\nlongitude_deg = 14\n"
+      "[marker]\nid = 7\nsize_mm = 480\nheading_deg = 342\n";
+  const tests::TemporaryFolder folder;
+  const auto read = ReadSceneDescription(
+      folder.Write("scene.toml", scene + "[[anchor]]\nid = 8\n"
+                                         "[[anchor]]\nfamily = \"tag36h11\"\nid = 7\nsize_m = 0.2\n"
+                                         "translation_m = [1, 2, 0]\nrotation_deg = [0, 0, 90]\n"));
+  ASSERT_TRUE(read) << read.error().Message();
+  ASSERT_EQ(read->anchors.size(), 2U);
+  EXPECT_EQ(read->anchors[0].family, "sg");
+  EXPECT_EQ(read->anchors[0].id, 8);
+  EXPECT_EQ(read->anchors[0].size_m, 0.48);
+  EXPECT_FALSE(read->anchors[0].place);
+  EXPECT_EQ(read->anchors[1].family, "tag36h11");
+  ASSERT_TRUE(read->anchors[1].place);
+  EXPECT_EQ(read->anchors[1].place->translation_m.y, 2.0);
+  EXPECT_EQ(read->anchors[1].place->rotation_deg.z, 90.0);
+
+  EXPECT_THAT(Refusal(scene + "[[anchor]]\nsize_mm = 480\n"), HasSubstr("without an id"));
+  EXPECT_THAT(Refusal(scene + "[[anchor]]\nid = 7\n"), HasSubstr("the marker sg 7 twice"));
+  EXPECT_THAT(Refusal(scene + "[[anchor]]\nid = 8\n[[anchor]]\nid = 8\n"), HasSubstr("twice"));
+  EXPECT_THAT(Refusal(scene + "[[anchor]]\nid = 8\nsize_mm = 0\n"), HasSubstr("impossible size"));
+  EXPECT_THAT(Refusal(scene + "[[anchor]]\nid = 8\nrotation_deg = [0, 0, 1]\n"),
+              HasSubstr("rotation_deg alone"));
+  EXPECT_THAT(Refusal(scene + "[[anchor]]\nid = 8\ntranslation_m = [0, 0, 1e9]\n"),
+              HasSubstr("beyond ten thousand"));
+  EXPECT_THAT(Refusal(scene + "[[anchor]]\nid = 8\nheading_deg = 3\n"), HasSubstr("is unknown"));
+  std::string unnumbered = scene + "[[anchor]]\nid = 8\n";
+  unnumbered.erase(unnumbered.find("id = 7\n"), 7);
+  EXPECT_THAT(Refusal(unnumbered), HasSubstr("marker.id"));
+}
+
 TEST(SceneToml, OneMarkerAnchorsTheScene) {
   EXPECT_EQ(Refusal(tests::Replaced(kScene, "[marker]", "[[marker]]")), "no error");
   EXPECT_THAT(Refusal(tests::Replaced(tests::Replaced(kScene, "[marker]", "[[marker]]"),

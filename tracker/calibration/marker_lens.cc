@@ -15,6 +15,10 @@
 #include "tracker/calibration/lens_residual.h"
 #include "tracker/pose/homography.h"
 
+// Ceres includes glog, which has macros of the names in base/check.h. A file that removes one is
+// compiled alone (cmake/unity_batches.awk), so that none of the two meets the other.
+#undef CHECK_EQ
+
 namespace pleinair::tracker {
 namespace {
 

@@ -13,10 +13,12 @@ PoseStatistics SummarizeTrajectory(const std::vector<session::Observation>& path
   for (std::size_t i = 0; i < path.size(); ++i) {
     const session::Observation& at = path[i];
     distances_m.push_back(Norm(at.camera_from_marker.translation_m));
-    errors_px.push_back(at.reprojection_rms_px);
-    visible.push_back(at.visible_fraction);
-    ++statistics.found_by[static_cast<std::size_t>(at.path)];
-    if (at.ambiguity_ratio > tracker::kCertainRatio) ++statistics.ambiguous_frames;
+    if (at.source != session::PoseSource::kMotion) {
+      errors_px.push_back(at.reprojection_rms_px);
+      visible.push_back(at.visible_fraction);
+      ++statistics.found_by[static_cast<std::size_t>(at.path)];
+      if (at.ambiguity_ratio > tracker::kCertainRatio) ++statistics.ambiguous_frames;
+    }
     if (i == 0 || at.frame_index != path[i - 1].frame_index + 1) continue;
     const auto here = at.camera_from_marker.Inverse();
     const auto before = path[i - 1].camera_from_marker.Inverse();

@@ -10,6 +10,7 @@
 #include "base/stage_times.h"
 #include "devices/films/film_curve.h"
 #include "scene/scene_description.h"
+#include "session/anchors.h"
 #include "session/light_options.h"
 #include "session/light_summary.h"
 #include "session/marker_tracks.h"
@@ -68,8 +69,9 @@ struct ReplayReport {
   ReplayedScene scene;
   std::optional<session::MarkerName> reference_marker;
   std::vector<session::MarkerName> markers;  ///< Every observed marker.
-  /// Trajectory of the reference marker: one entry per frame that observes it.
+  /// Camera trajectory against the reference marker: one entry per frame with a pose.
   std::vector<session::Observation> path;
+  session::AnchorSummary anchors;
   std::optional<session::LightSummary> light;  ///< Nothing if nothing had to be lit.
   ReplayedLight light_changes;
   ReplayFiles files;

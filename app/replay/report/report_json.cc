@@ -168,6 +168,27 @@ Json PosesJson(const ReplayReport& report) {
       {"lost", {{"frames", lost.frames}, {"longest", lost.longest}}}};
 }
 
+Json AnchorsJson(const session::AnchorSummary& summary) {
+  Json anchors = Json::array();
+  for (const session::PlacedAnchor& anchor : summary.anchors) {
+    Json one = {{"marker", anchor.marker.ToString()},
+                {"frames", anchor.frames},
+                {"place", anchor.is_given                ? "given"
+                          : anchor.reference_from_anchor ? "found"
+                                                         : "unknown"}};
+    if (anchor.reference_from_anchor) {
+      const Vec3& at = anchor.reference_from_anchor->translation_m;
+      one["translation_m"] = {Rounded(at.x), Rounded(at.y), Rounded(at.z)};
+    }
+    anchors.push_back(std::move(one));
+  }
+  return {{"markers", anchors},
+          {"frames_by_anchors", summary.by_anchors},
+          {"filled_frames", summary.filled},
+          {"gaps", summary.gaps},
+          {"longest_gap_s", Rounded(summary.longest_gap_s)}};
+}
+
 Json TimingsJson(const ReplayReport& report) {
   Json timings = Json::array();
   for (const StageTimes::Summary& stage : report.timings) {
@@ -198,6 +219,7 @@ std::string ReportJson(const ReplayReport& report) {
   json["markers_seen"] = Json::array();
   for (const session::MarkerName& marker : report.markers)
     json["markers_seen"].push_back(marker.ToString());
+  if (!report.anchors.anchors.empty()) json["anchors"] = AnchorsJson(report.anchors);
   json["poses"] = report.path.empty() ? Json() : PosesJson(report);
   json["place_time"] = {{"latitude_deg", Rounded(report.scene.place_time.latitude_deg)},
                         {"longitude_deg", Rounded(report.scene.place_time.longitude_deg)},

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "base/camera_model.h"
+#include "base/frames.h"
+#include "scene/scene_description.h"
+#include "session/marker_tracks.h"
+#include "tracker/observation.h"
+
+namespace pleinair::session {
+
+/// A marker beside the reference marker, and where it is.
+struct PlacedAnchor {
+  MarkerName marker;
+  std::int64_t frames = 0;  ///< That show it.
+  bool is_given = false;    ///< Its pose is the scene's.
+  /// Nothing: no frame shows it beside a placed marker, so it is not used.
+  std::optional<Transform<Marker, Marker>> reference_from_anchor;
+};
+
+/// How the anchors of a scene were used.
+struct AnchorSummary {
+  std::vector<PlacedAnchor> anchors;
+  std::int64_t by_anchors = 0;  ///< Frames without the reference marker whose pose anchors give.
+  std::int64_t filled = 0;      ///< Frames without any marker, filled by the camera's motion.
+  std::int64_t gaps = 0;
+  double longest_gap_s = 0.0;
+};
+
+/// The trajectory of the camera by all markers of a scene.
+struct AnchoredPath {
+  std::vector<Observation> observations;  ///< One per frame with a pose.
+  AnchorSummary summary;
+};
+
+/// Name of an anchor's marker.
+MarkerName NameOf(const scene::AnchorDescription& anchor);
+
+/// The tracker takes all markers for as large as the reference marker. Scales the poses of anchors
+/// of another size.
+void ScaleAnchors(const scene::SceneDescription& scene,
+                  std::vector<tracker::MarkerObservation>* observations);
+
+/// Places the anchors of a scene that have no pose (tracker/pose/anchor_fit.h), estimates the pose
+/// of each frame from all markers that it shows, and fills short gaps (path_gaps.h). `camera`: the
+/// lens of the frames.
+AnchoredPath FollowAnchors(const CameraModel& camera, const scene::SceneDescription& scene,
+                           const MarkerTracks& tracks, const MarkerName& reference);
+
+}  // namespace pleinair::session

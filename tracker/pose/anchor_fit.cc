@@ -1,0 +1,230 @@
+#include "tracker/pose/anchor_fit.h"
+
+#include <ceres/ceres.h>
+#include <ceres/rotation.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <utility>
+
+// Ceres includes glog, which has macros of the names in base/check.h. A file that removes one is
+// compiled alone (cmake/unity_batches.awk), so that none of the two meets the other.
+#undef CHECK_EQ
+
+namespace pleinair::tracker {
+namespace {
+
+/// Rotation vector and translation.
+using RigidNumbers = std::array<double, 6>;
+
+template <typename To, typename From>
+RigidNumbers RigidNumbersOf(const Transform<To, From>& pose) {
+  RigidNumbers numbers{};
+  ceres::RotationMatrixToAngleAxis(ceres::RowMajorAdapter3x3(pose.rotation.m.data()),
+                                   numbers.data());
+  numbers[3] = pose.translation_m.x;
+  numbers[4] = pose.translation_m.y;
+  numbers[5] = pose.translation_m.z;
+  return numbers;
+}
+
+template <typename To>
+Transform<To, Marker> RigidOf(const RigidNumbers& numbers) {
+  Transform<To, Marker> pose;
+  ceres::AngleAxisToRotationMatrix(numbers.data(),
+                                   ceres::RowMajorAdapter3x3(pose.rotation.m.data()));
+  pose.translation_m = {numbers[3], numbers[4], numbers[5]};
+  return pose;
+}
+
+/// Clockwise from top-left, in edges from the centre.
+constexpr std::array<Vec2, 4> kAnchorCorners{{{-0.5, 0.5}, {0.5, 0.5}, {0.5, -0.5}, {-0.5, -0.5}}};
+
+/// Distances of the corners of a sighting from their projections, in standard deviations.
+struct SightingCost {
+  const CameraModel& camera;
+  const AnchorSighting& sighting;
+  double size_m;
+
+  template <typename T>
+  bool operator()(const T* camera_from_reference, const T* reference_from_marker,
+                  T* residuals) const {
+    for (std::size_t i = 0; i < 4; ++i) {
+      const T corner[3] = {T(kAnchorCorners[i].x * size_m), T(kAnchorCorners[i].y * size_m), T(0)};
+      T in_reference[3], in_camera[3];
+      ceres::AngleAxisRotatePoint(reference_from_marker, corner, in_reference);
+      for (int k = 0; k < 3; ++k) in_reference[k] += reference_from_marker[3 + k];
+      ceres::AngleAxisRotatePoint(camera_from_reference, in_reference, in_camera);
+      for (int k = 0; k < 3; ++k) in_camera[k] += camera_from_reference[3 + k];
+      if (in_camera[2] < T(1e-6)) return false;
+      T u, v;
+      ProjectToPixel(camera, in_camera[0], in_camera[1], in_camera[2], &u, &v);
+      residuals[2 * i] = (u - sighting.corners_px[i].x) / sighting.deviation_px;
+      residuals[2 * i + 1] = (v - sighting.corners_px[i].y) / sighting.deviation_px;
+    }
+    return true;
+  }
+};
+
+ceres::CostFunction* CostOf(const CameraModel& camera, const AnchorSighting& sighting,
+                            double size_m) {
+  return new ceres::AutoDiffCostFunction<SightingCost, 8, 6, 6>(
+      new SightingCost{camera, sighting, size_m});
+}
+
+ceres::Solver::Options QuietOptions(ceres::LinearSolverType solver) {
+  ceres::Solver::Options options;
+  options.linear_solver_type = solver;
+  options.max_num_iterations = 60;
+  options.function_tolerance = 1e-10;
+  options.logging_type = ceres::SILENT;
+  return options;
+}
+
+double PlacementDistance(const Transform<Marker, Marker>& a, const Transform<Marker, Marker>& b) {
+  const Mat3 relative = a.rotation.Transposed() * b.rotation;
+  const double cosine = 0.5 * (relative(0, 0) + relative(1, 1) + relative(2, 2) - 1.0);
+  return Norm(a.translation_m - b.translation_m) + std::acos(std::clamp(cosine, -1.0, 1.0));
+}
+
+/// The pose of `marker` by single frames beside placed markers: the one nearest to all others, so
+/// that frames with the wrong one of two planar poses do not count.
+std::optional<Transform<Marker, Marker>> RoughPlacement(const std::vector<AnchorFrame>& frames,
+                                                        const std::vector<AnchorMarker>& markers,
+                                                        std::size_t marker) {
+  constexpr std::size_t kMaxCandidates = 100;
+  std::vector<Transform<Marker, Marker>> candidates;
+  for (const AnchorFrame& frame : frames) {
+    const AnchorSighting* here = nullptr;
+    const AnchorSighting* placed = nullptr;
+    for (const AnchorSighting& sighting : frame) {
+      if (sighting.marker == marker) here = &sighting;
+      if (markers[sighting.marker].reference_from_marker) placed = &sighting;
+    }
+    if (here == nullptr || placed == nullptr) continue;
+    candidates.push_back(*markers[placed->marker].reference_from_marker *
+                         placed->camera_from_marker.Inverse() * here->camera_from_marker);
+  }
+  if (candidates.size() > kMaxCandidates) {
+    std::vector<Transform<Marker, Marker>> some;
+    for (std::size_t i = 0; i < kMaxCandidates; ++i) {
+      some.push_back(candidates[i * candidates.size() / kMaxCandidates]);
+    }
+    candidates = std::move(some);
+  }
+  std::optional<Transform<Marker, Marker>> best;
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& one : candidates) {
+    double sum = 0.0;
+    for (const auto& other : candidates) sum += PlacementDistance(one, other);
+    if (sum >= least) continue;
+    least = sum;
+    best = one;
+  }
+  return best;
+}
+
+/// Adjusts the markers that `free` names, and the frames' poses.
+void Adjust(const CameraModel& camera, const std::vector<AnchorFrame>& frames,
+            const std::vector<bool>& free, std::vector<AnchorMarker>* markers) {
+  constexpr std::size_t kMaxFrames = 300;
+  std::vector<const AnchorFrame*> shared;
+  for (const AnchorFrame& frame : frames) {
+    const auto placed = std::count_if(frame.begin(), frame.end(), [&](const auto& sighting) {
+      return (*markers)[sighting.marker].reference_from_marker.has_value();
+    });
+    if (placed >= 2) shared.push_back(&frame);
+  }
+  const std::size_t stride = shared.size() / kMaxFrames + 1;
+  std::vector<RigidNumbers> anchors(markers->size()), poses;
+  poses.reserve(shared.size());
+  for (std::size_t i = 0; i < markers->size(); ++i) {
+    if (const auto& at = (*markers)[i].reference_from_marker) anchors[i] = RigidNumbersOf(*at);
+  }
+  ceres::Problem problem;
+  auto order = std::make_shared<ceres::ParameterBlockOrdering>();
+  for (std::size_t i = 0; i < shared.size(); i += stride) {
+    const auto start = FitAnchoredPose(camera, *markers, *shared[i]);
+    if (!start) continue;
+    poses.push_back(RigidNumbersOf(start->camera_from_reference));
+    order->AddElementToGroup(poses.back().data(), 0);
+    for (const AnchorSighting& sighting : *shared[i]) {
+      const AnchorMarker& marker = (*markers)[sighting.marker];
+      if (!marker.reference_from_marker) continue;
+      double* anchor = anchors[sighting.marker].data();
+      problem.AddResidualBlock(CostOf(camera, sighting, marker.size_m), new ceres::HuberLoss(3.0),
+                               poses.back().data(), anchor);
+      if (!free[sighting.marker]) problem.SetParameterBlockConstant(anchor);
+      order->AddElementToGroup(anchor, 1);
+    }
+  }
+  if (problem.NumResidualBlocks() == 0) return;
+  ceres::Solver::Options options = QuietOptions(ceres::DENSE_SCHUR);
+  options.linear_solver_ordering = order;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  if (!summary.IsSolutionUsable()) return;
+  for (std::size_t i = 0; i < markers->size(); ++i) {
+    if (free[i] && (*markers)[i].reference_from_marker) {
+      (*markers)[i].reference_from_marker = RigidOf<Marker>(anchors[i]);
+    }
+  }
+}
+
+}  // namespace
+
+void PlaceAnchorMarkers(const CameraModel& camera, const std::vector<AnchorFrame>& frames,
+                        std::vector<AnchorMarker>* markers) {
+  std::vector<bool> free(markers->size(), false);
+  for (bool any = true; any;) {
+    any = false;
+    for (std::size_t i = 0; i < markers->size(); ++i) {
+      AnchorMarker& marker = (*markers)[i];
+      if (marker.reference_from_marker) continue;
+      marker.reference_from_marker = RoughPlacement(frames, *markers, i);
+      if (!marker.reference_from_marker) continue;
+      free[i] = any = true;
+    }
+  }
+  if (std::count(free.begin(), free.end(), true) > 0) Adjust(camera, frames, free, markers);
+}
+
+std::optional<AnchoredPose> FitAnchoredPose(const CameraModel& camera,
+                                            const std::vector<AnchorMarker>& markers,
+                                            const AnchorFrame& frame) {
+  std::optional<AnchoredPose> best;
+  double least = std::numeric_limits<double>::infinity();
+  // Each marker's own pose is a start: one of them may be the wrong one of two planar poses.
+  for (const AnchorSighting& from : frame) {
+    const auto& placed = markers[from.marker].reference_from_marker;
+    if (!placed) continue;
+    RigidNumbers pose = RigidNumbersOf(from.camera_from_marker * placed->Inverse());
+    std::vector<RigidNumbers> anchors;
+    anchors.reserve(frame.size());
+    ceres::Problem problem;
+    for (const AnchorSighting& sighting : frame) {
+      const AnchorMarker& marker = markers[sighting.marker];
+      if (!marker.reference_from_marker) continue;
+      anchors.push_back(RigidNumbersOf(*marker.reference_from_marker));
+      problem.AddResidualBlock(CostOf(camera, sighting, marker.size_m), nullptr, pose.data(),
+                               anchors.back().data());
+      problem.SetParameterBlockConstant(anchors.back().data());
+    }
+    ceres::Solver::Summary summary;
+    // A single marker's own pose is the best: it knows the covariance of its corners.
+    ceres::Solver::Options options = QuietOptions(ceres::DENSE_QR);
+    if (anchors.size() == 1) options.max_num_iterations = 0;
+    ceres::Solve(options, &problem, &summary);
+    if (!summary.IsSolutionUsable() || !(summary.final_cost < least)) continue;
+    least = summary.final_cost;
+    // Costs are half the squares.
+    const double corners = 4.0 * static_cast<double>(anchors.size());
+    best = AnchoredPose{RigidOf<Camera>(pose),
+                        from.deviation_px * std::sqrt(2.0 * summary.final_cost / corners)};
+  }
+  return best;
+}
+
+}  // namespace pleinair::tracker
