@@ -26,6 +26,7 @@ constexpr const char* kExamples =
     "  pleinair response my_recording -o camera.response\n"
     "  pleinair target poster.jpg --width-mm 420 -o poster.target\n"
     "  pleinair model sculpture.glb -o sheet.png\n"
+    "  pleinair leaf --chlorophyll 45 --carotenoids 9 -o leaf.png\n"
     "  pleinair path convert out/demo/poses/sg_17.tum path.glb --calibration camera.json\n"
     "  pleinair sun --at 50.0875,14.4213 --time 2025-09-14T11:05:00Z\n"
     "  pleinair sky --at 50.0875,14.4213 --time 2025-09-14T17:00:00Z -o dome.png\n"
@@ -85,6 +86,7 @@ int RunCommandLine(int argc, const char* const* argv) {
     AddTargetCommand(app, result);
     AddBoardCommand(app, result);
     AddModelCommand(app, result);
+    AddLeafCommand(app, result);
     AddPathCommand(app, result);
     AddCalibrateCommand(app, result);
     AddResponseCommand(app, result);

@@ -31,6 +31,7 @@ void AddFilmCommand(CLI::App& app, CommandResult& result);
 void AddTargetCommand(CLI::App& app, CommandResult& result);
 void AddBoardCommand(CLI::App& app, CommandResult& result);
 void AddModelCommand(CLI::App& app, CommandResult& result);
+void AddLeafCommand(CLI::App& app, CommandResult& result);
 void AddPathCommand(CLI::App& app, CommandResult& result);
 void AddCalibrateCommand(CLI::App& app, CommandResult& result);
 void AddResponseCommand(CLI::App& app, CommandResult& result);

@@ -4,8 +4,10 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "app/leaf/leaf_table.h"
 #include "app/sky/sky_directions.h"
 #include "app/sun/sun_table.h"
+#include "scene/leaf_contents.h"
 
 // Any bytes give a table of finite values or an error, never a crash. Rows refer to the text.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -30,6 +32,16 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       }
     }
   } else if (table.error().what.empty()) {
+    std::abort();
+  }
+  if (const auto leaves = pleinair::app::ParseLeafTable(text, "table")) {
+    for (const auto& [name, leaf] : *leaves) {
+      for (const auto& quantity : pleinair::scene::kLeafQuantities) {
+        const double value = leaf.contents.*quantity.value;
+        if (!(value >= quantity.low && value <= quantity.high)) std::abort();
+      }
+    }
+  } else if (leaves.error().what.empty()) {
     std::abort();
   }
   return 0;
