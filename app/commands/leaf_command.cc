@@ -1,19 +1,28 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <charconv>
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include "app/commands/command.h"
 #include "app/leaf/leaf_swatch.h"
 #include "app/leaf/leaf_table.h"
+#include "app/leaf/spectrum_fit.h"
 #include "app/options/option_use.h"
+#include "base/image.h"
+#include "compositor/leaf/leaf_inversion.h"
+#include "compositor/leaf/leaf_maps.h"
 #include "compositor/leaf/prospect.h"
+#include "compositor/models/texture_decoder.h"
 #include "export/images/image_writer.h"
 #include "files/csv.h"
 #include "files/result_file.h"
@@ -32,6 +41,10 @@ constexpr const char* kLeafExamples =
     "      the model of Miao et al. 2016: one plate at three wavelengths\n"
     "  pleinair leaf --csv leaves.csv --spectra spectra.csv --nm 400..800\n"
     "      a table of leaves; columns name, model, structure, chlorophyll_ug_cm2, ...\n"
+    "  pleinair leaf fit measured.csv\n"
+    "      the contents that explain a measured spectrum, with their standard deviations\n"
+    "  pleinair leaf maps structure.png -o maps\n"
+    "      maps of pigments, gloss and thickness from an image of the veins\n"
     "Colors: linear Rec.709 under D65; a white diffuser has 1 1 1. What is left out is 0;\n"
     "--structure is then 1.5.\n";
 
@@ -164,6 +177,80 @@ Result<void> RunLeaf(const CLI::App& command, const LeafCommandOptions& options)
   return {};
 }
 
+struct LeafFitOptions {
+  std::string spectrum;
+  bool json = false;
+};
+
+Result<void> RunLeafFit(const LeafFitOptions& options) {
+  PLEINAIR_ASSIGN_OR_RETURN(const std::string text, files::ReadTextFile(options.spectrum));
+  const std::string name = files::TextFileName(options.spectrum);
+  PLEINAIR_ASSIGN_OR_RETURN(const compositor::MeasuredSpectrum spectrum,
+                            ParseMeasuredSpectrum(text, name));
+  PLEINAIR_ASSIGN_OR_RETURN(const compositor::LeafFit fit, compositor::FitLeaf(spectrum, name));
+  std::cout << (options.json ? LeafFitJson(fit) + "\n" : LeafFitText(fit));
+  return {};
+}
+
+void AddLeafFitCommand(CLI::App* leaf, CommandResult* result) {
+  auto options = std::make_shared<LeafFitOptions>();
+  CLI::App* command = leaf->add_subcommand("fit", "Pigments of a leaf from its spectrum");
+  command->footer(
+      "Examples:\n"
+      "  pleinair leaf fit measured.csv\n"
+      "The table has the columns wavelength_nm and reflectance, transmittance or both, as shares\n"
+      "from 0 to 1. Rows outside 400 to 2500 nm are left out.\n");
+  command->add_option("SPECTRUM", options->spectrum, "CSV table; - is standard input")->required();
+  command->add_flag("--json", options->json, "One JSON object");
+  command->callback([options, result] { result->status = RunLeafFit(*options); });
+}
+
+struct LeafMapsOptions {
+  std::string structure, folder;
+};
+
+/// A grey image as RGB.
+RgbImage RgbOfGrey(const Image<std::uint8_t>& grey) {
+  RgbImage rgb(grey.width(), grey.height(), 3);
+  for (std::size_t i = 0; i < grey.size(); ++i) std::fill_n(rgb.data() + 3 * i, 3, grey.data()[i]);
+  return rgb;
+}
+
+Result<void> RunLeafMaps(const LeafMapsOptions& options) {
+  namespace fs = std::filesystem;
+  PLEINAIR_ASSIGN_OR_RETURN(const Image<std::uint8_t> structure,
+                            compositor::ReadTexture(options.structure));
+  const compositor::LeafMaps maps = compositor::MapsOfStructure(structure.view());
+  std::error_code error;
+  fs::create_directories(options.folder, error);
+  if (error) {
+    return SystemError(options.folder, "cannot be made: " + error.message(), "name another folder");
+  }
+  const fs::path folder(options.folder);
+  PLEINAIR_RETURN_IF_ERROR(exports::WritePng(folder / "pigment.png", maps.pigment.view()));
+  PLEINAIR_RETURN_IF_ERROR(exports::WritePng(folder / "gloss.png", RgbOfGrey(maps.gloss).view()));
+  return exports::WritePng(folder / "thickness.png", RgbOfGrey(maps.thickness).view());
+}
+
+void AddLeafMapsCommand(CLI::App* leaf, CommandResult* result) {
+  auto options = std::make_shared<LeafMapsOptions>();
+  CLI::App* command =
+      leaf->add_subcommand("maps", "Maps of a leaf from an image of its structure, to be edited");
+  command->footer(
+      "Examples:\n"
+      "  pleinair leaf maps structure.png -o maps\n"
+      "Red is the main vein, green secondary veins, blue mesophyll. Writes pigment.png (red, "
+      "green\n"
+      "and blue scale chlorophyll, carotenoids and brown pigments; 255 is 1), gloss.png (255 is "
+      "1)\n"
+      "and thickness.png (128 is 1).\n");
+  command->add_option("STRUCTURE", options->structure, "Image of the veins")->required();
+  command->add_option("-o,--output", options->folder, "Folder for the maps")
+      ->type_name("DIR")
+      ->required();
+  command->callback([options, result] { result->status = RunLeafMaps(*options); });
+}
+
 void AddLeafOptions(CLI::App* command, LeafCommandOptions* options) {
   command->add_option("--model", options->model, "prospect-d or plate")
       ->type_name("MODEL")
@@ -205,7 +292,12 @@ void AddLeafCommand(CLI::App& app, CommandResult& result) {
   command->footer(kLeafExamples);
   AddLeafOptions(command, options.get());
   RefuseEmptyValues(*command);
-  command->callback([command, options, &result] { result.status = RunLeaf(*command, *options); });
+  command->require_subcommand(0, 1);
+  AddLeafFitCommand(command, &result);
+  AddLeafMapsCommand(command, &result);
+  command->callback([command, options, &result] {
+    if (command->get_subcommands().empty()) result.status = RunLeaf(*command, *options);
+  });
 }
 
 }  // namespace pleinair::app

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "app/leaf/leaf_table.h"
+#include "app/leaf/spectrum_fit.h"
 #include "app/sky/sky_directions.h"
 #include "app/sun/sun_table.h"
 #include "scene/leaf_contents.h"
@@ -42,6 +43,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       }
     }
   } else if (leaves.error().what.empty()) {
+    std::abort();
+  }
+  if (const auto spectrum = pleinair::app::ParseMeasuredSpectrum(text, "table")) {
+    for (const auto* values : {&spectrum->reflectance, &spectrum->transmittance}) {
+      if (!values->empty() && values->size() != spectrum->wavelength_nm.size()) std::abort();
+    }
+  } else if (spectrum.error().what.empty()) {
     std::abort();
   }
   return 0;
