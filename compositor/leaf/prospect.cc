@@ -101,10 +101,4 @@ LeafOptics StackOptics(const LeafBand& band, double optical_depth, double struct
   return {first.reflectance + between * others.reflectance * t, between * others.transmittance};
 }
 
-void ProspectSpectrum(const scene::LeafContents& contents, int first_nm,
-                      std::span<LeafOptics> optics) {
-  const LeafBand* band = &LeafBandAt(first_nm);
-  for (LeafOptics& at : optics) at = ProspectOptics(*band++, contents);
-}
-
 }  // namespace pleinair::compositor

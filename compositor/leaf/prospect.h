@@ -48,7 +48,7 @@ inline LeafOptics ProspectOptics(const LeafBand& band, const scene::LeafContents
 }
 
 /// PROSPECT-D at whole nanometres from `first_nm` on, as many as `optics` has. All must be within
-/// kFirstLeafNm…kLastLeafNm. Takes 0.1 ms for 2,101 nanometres.
+/// kFirstLeafNm…kLastLeafNm. Takes 0.05 ms for 2,101 nanometres (Highway).
 void ProspectSpectrum(const scene::LeafContents& contents, int first_nm,
                       std::span<LeafOptics> optics);
 
