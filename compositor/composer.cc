@@ -230,6 +230,7 @@ Result<const SurfacePrograms*> GlComposer::ProgramsFor(const FrameUniforms& fram
                                  .needs_airlight = frame.needs_airlight,
                                  .textured = surfaces_.materials().HasTextures(),
                                  .detailed = surfaces_.materials().HasDetails(),
+                                 .translucent = surfaces_.materials().HasTranslucent(),
                                  .glossy = surfaces_.materials().HasGloss()}));
     made.emplace(std::move(programs));
   }
@@ -270,6 +271,7 @@ Result<void> GlComposer::SetLightMix(const std::vector<LitMesh>& lit, const Ligh
 void GlComposer::SetSun(const sky::SkyModel& day, const Mat3& marker_from_world) {
   sky_.to_sun = marker_from_world * day.ToSun().xyz;
   sky_.sun_normal_lux = day.SunNormalIrradiance();
+  surfaces_.SetLightColors(sky_.sun_normal_lux, day.SkyHorizontalIrradiance());
 }
 
 Result<void> GlComposer::SetSunTransmittance(

@@ -11,6 +11,7 @@
 #include "base/utc_time.h"
 #include "base/vector.h"
 #include "scene/described_surface.h"
+#include "scene/leaf_description.h"
 
 namespace pleinair::scene {
 
@@ -93,6 +94,7 @@ struct SceneDescription {
   std::vector<ModelReference> phantoms;  ///< Proxy geometry of real surfaces, see
                                          ///< docs/conventions.md.
   std::vector<ModelReference> objects;   ///< Virtual objects.
+  std::vector<LeafDescription> leaves;   ///< In place of materials of the objects.
   Cloudiness cloudiness = Cloudiness::kClear;
   std::optional<double> turbidity;          ///< Overrides the default of the cloudiness.
   std::optional<LinearRgb> exposure_scale;  ///< Overrides the exposure scale estimated on the

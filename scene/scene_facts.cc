@@ -305,6 +305,7 @@ Result<SceneDescription> CompleteScene(const SceneFacts& facts, const std::files
   PLEINAIR_ASSIGN_OR_RETURN(auto ground, CompleteGround(facts, scene.marker.upright, name));
   if (ground) scene.phantoms.push_back(*std::move(ground));
   scene.objects = facts.objects;
+  scene.leaves = facts.leaves;
   for (std::vector<ModelReference>* models : {&scene.phantoms, &scene.objects}) {
     for (ModelReference& model : *models) {
       PLEINAIR_RETURN_IF_ERROR(CheckPlacement(model, name));

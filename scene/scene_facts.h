@@ -53,6 +53,7 @@ struct SceneFacts {
   std::vector<AnchorFacts> anchors;
   std::vector<ModelReference> phantoms, objects;  ///< Paths as in the file, relative to the scene's
                                                   ///< folder.
+  std::vector<LeafDescription> leaves;
   GroundFacts ground;
   std::optional<Cloudiness> cloudiness;
   std::optional<double> turbidity;

@@ -7,6 +7,7 @@
 
 #include "scene/cloudiness.h"
 #include "scene/scene_facts.h"
+#include "scene/toml_leaves.h"
 #include "scene/toml_surfaces.h"
 #include "scene/toml_table.h"
 #include "scene/zoned_time.h"
@@ -90,7 +91,8 @@ Result<std::vector<AnchorFacts>> ReadAnchors(const TomlTable& scene) {
 Result<SceneFacts> ReadScene(const TomlTable& scene) {
   PLEINAIR_RETURN_IF_ERROR(
       scene.AllowOnly({"time", "cloudiness", "turbidity", "exposure_gain", "camera_response",
-                       "place", "marker", "anchor", "ground", "box", "wall", "phantom", "object"}));
+                        "place", "marker", "anchor", "ground", "box", "wall", "phantom", "object",
+                        "leaf"}));
   SceneFacts facts;
   PLEINAIR_ASSIGN_OR_RETURN(facts.place_time.start, ReadTime(scene, "time"));
   PLEINAIR_ASSIGN_OR_RETURN(const std::vector<TomlTable> places, scene.Tables("place"));
@@ -107,6 +109,7 @@ Result<SceneFacts> ReadScene(const TomlTable& scene) {
   PLEINAIR_RETURN_IF_ERROR(ReadDescribedSurfaces(scene, &facts.phantoms));
   PLEINAIR_RETURN_IF_ERROR(ReadGround(scene, &facts.ground));
   PLEINAIR_ASSIGN_OR_RETURN(facts.objects, ReadModels(scene, "object"));
+  PLEINAIR_ASSIGN_OR_RETURN(facts.leaves, ReadLeaves(scene));
   PLEINAIR_ASSIGN_OR_RETURN(const std::optional<std::string> sky, scene.Text("cloudiness"));
   if (sky) {
     facts.cloudiness = ParseCloudiness(*sky);

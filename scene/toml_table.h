@@ -145,10 +145,35 @@ class TomlTable {
     return tables;
   }
 
+  /// A list of texts in quotes; empty where the key is missing.
+  Result<std::vector<std::string>> Texts(const char* key) const {
+    std::vector<std::string> texts;
+    const toml::node* node = Find(key);
+    if (node == nullptr) return texts;
+    const toml::array* list = node->as_array();
+    if (list == nullptr) return Fail(node->source(), Quoted(key) + " is not a list");
+    for (const toml::node& item : *list) {
+      std::optional<std::string> text = item.value_exact<std::string>();
+      if (!text || text->empty()) {
+        return Fail(item.source(), Quoted(key) + " is not a list of texts in quotes");
+      }
+      texts.push_back(*std::move(text));
+    }
+    return texts;
+  }
+
+  /// Location for messages, "FILE:LINE": that of a key, which must be present, and of the table.
+  std::string WhereOf(const char* key) const { return WhereOf(Find(key)->source()); }
+  std::string WhereHere() const { return WhereOf(table_.source()); }
+
+  /// An error about the table as a whole.
+  tl::unexpected<Error> FailHere(std::string what, std::string remedy = {}) const {
+    return InputError(WhereHere(), "the table " + std::move(what), std::move(remedy));
+  }
+
   tl::unexpected<Error> Fail(const toml::source_region& source, std::string what,
                              std::string remedy = {}) const {
-    return InputError(file_ + ":" + std::to_string(source.begin.line), std::move(what),
-                      std::move(remedy));
+    return InputError(WhereOf(source), std::move(what), std::move(remedy));
   }
 
   tl::unexpected<Error> Fail(const char* key, std::string what, std::string remedy = {}) const {
@@ -156,6 +181,9 @@ class TomlTable {
   }
 
  private:
+  std::string WhereOf(const toml::source_region& source) const {
+    return file_ + ":" + std::to_string(source.begin.line);
+  }
   static std::string Quoted(std::string_view key) { return "\"" + std::string(key) + "\""; }
 
   Result<Vec3> Triple(const toml::node& node, const char* key) const {

@@ -15,6 +15,7 @@
 #include "scene/marker_heading.h"
 #include "scene/marker_reflectance.h"
 #include "scene/sun_over_place.h"
+#include "session/leaf_materials.h"
 
 namespace pleinair::session {
 namespace {
@@ -85,6 +86,7 @@ Result<std::unique_ptr<SceneRenderer>> SceneRenderer::Create(
     PLEINAIR_ASSIGN_OR_RETURN(auto model, PlaceModel(object, false, scene.marker));
     placed.push_back(std::move(model));
   }
+  PLEINAIR_RETURN_IF_ERROR(ReplaceByLeaves(scene.leaves, scene.place_time.start, &placed));
   if (scene.objects.empty()) return renderer;
   compositor::ComposerOptions composing = options;
   if (!scene.camera_response.empty()) {

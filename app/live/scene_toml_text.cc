@@ -3,11 +3,13 @@
 #include <cstddef>
 #include <string_view>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "app/live/live_recorder.h"
 #include "app/replay/report/report.h"
 #include "base/up_axis.h"
+#include "scene/leaf_contents.h"
 #include "scene/length_units.h"
 
 namespace pleinair::app {
@@ -84,6 +86,34 @@ void AddModel(const char* table, const scene::ModelReference& model, const fs::p
                        Vector(model.translation_m), Vector(model.rotation_deg), model.scale);
 }
 
+std::string ContentsText(const scene::LeafContents& contents) {
+  std::string text;
+  for (const scene::LeafQuantity& quantity : scene::kLeafQuantities) {
+    text += fmt::format("{} = {}\n", quantity.key, contents.*quantity.value);
+  }
+  return text;
+}
+
+void AddLeaf(const scene::LeafDescription& leaf, const fs::path& folder, std::string* text) {
+  *text += "\n[[leaf]]\nmaterials = [";
+  for (std::size_t i = 0; i < leaf.materials.size(); ++i) {
+    *text += (i == 0 ? "" : ", ") + Quoted(leaf.materials[i]);
+  }
+  *text += fmt::format("]\nmodel = \"{}\"\nroughness = {}\ngloss = {}\n",
+                       scene::NameOf(leaf.leaf.model), leaf.roughness, leaf.gloss) +
+           ContentsText(leaf.leaf.contents);
+  for (const auto& [key, file] : {std::pair("structure_map", &leaf.maps.structure),
+                                  {"pigment_map", &leaf.maps.pigment},
+                                  {"gloss_map", &leaf.maps.gloss},
+                                  {"thickness_map", &leaf.maps.thickness}}) {
+    if (!file->empty()) *text += fmt::format("{} = {}\n", key, Beside(folder, *file));
+  }
+  for (const scene::LeafStage& stage : leaf.stages) {
+    *text += "[[leaf.stage]]\ndate = " + stage.date.ToString().substr(0, 10) + "\n" +
+             ContentsText(stage.contents);
+  }
+}
+
 }  // namespace
 
 std::string SceneToml(const scene::SceneDescription& scene, UtcTime start, const fs::path& folder) {
@@ -117,6 +147,7 @@ std::string SceneToml(const scene::SceneDescription& scene, UtcTime start, const
                       marker.albedo_black, marker.albedo_white);
   for (const auto& phantom : scene.phantoms) AddModel("phantom", phantom, folder, &text);
   for (const auto& object : scene.objects) AddModel("object", object, folder, &text);
+  for (const auto& leaf : scene.leaves) AddLeaf(leaf, folder, &text);
   return text;
 }
 

@@ -56,7 +56,8 @@ std::vector<std::pair<const char*, int>> TexturesOf(const Material& material) {
       {"color", material.base_color_texture},
       {"roughness and metal", material.metallic_roughness_texture},
       {"normals", material.detail.normal_map.texture},
-      {"emission", material.detail.emission.texture}};
+      {"emission", material.detail.emission.texture},
+      {"diffuse transmission", material.detail.transmission.texture}};
   std::erase_if(textures, [](const auto& texture) { return texture.second < 0; });
   return textures;
 }

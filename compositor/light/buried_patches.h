@@ -33,6 +33,13 @@ inline std::array<std::uint32_t, 3> CornersOf(const PatchScene::Face& face,
   return corners;
 }
 
+/// The same on the other side of an open surface.
+inline std::array<std::uint32_t, 3> OtherCornersOf(const PatchScene::Face& face,
+                                                   FinalGather::Hit hit) {
+  hit.back = hit.back == 0 ? 1 : 0;
+  return CornersOf(face, hit);
+}
+
 /// Flags patches that lie inside a body or face the earth. Index 0: with the virtual objects, 1:
 /// phantoms alone.
 std::array<std::vector<std::uint8_t>, 2> FindBuriedPatches(const PatchScene& scene,

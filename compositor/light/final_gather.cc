@@ -136,7 +136,10 @@ class Gatherer {
     record.close = without && hit.distance_m < kLayerGapM;
     record.u = Quantized(hit.u);
     record.v = Quantized(hit.v);
-    const Vec3 normal = hit.back ? -face.normal : face.normal;
+    Vec3 normal = hit.back ? -face.normal : face.normal;
+    if (sun_frame_ && scene_.Transmits(face) && Dot(normal, sun_frame_->normal) < 0.0) {
+      normal = -normal;
+    }
     if (sun_frame_ && Dot(normal, sun_frame_->normal) > 0.0) {
       const Vec3 to_sun =
           SunDiscDirection(*sun_frame_, {UnitFromHash(Hash(seed, 1)), UnitFromHash(Hash(seed, 2))});
@@ -294,17 +297,34 @@ PatchLight SolveRadiosity(const PatchScene& scene, const FinalGather& gathered,
           const auto corners = CornersOf(face, *hit);
           const float u = static_cast<float>(hit->u) / 65535.0F;
           const float v = static_cast<float>(hit->v) / 65535.0F;
-          const auto& albedo = scene.mesh_sides[face.mesh_side].albedo;
-          const auto cosine = static_cast<float>(std::fabs(Dot(face.normal, to_sun)));
+          const PatchScene::MeshSide& side = scene.mesh_sides[face.mesh_side];
+          const bool transmits = scene.Transmits(face);
+          const auto behind = transmits ? OtherCornersOf(face, *hit) : corners;
+          const double facing = Dot(face.normal, to_sun) * (hit->back != 0 ? -1.0 : 1.0);
+          // What the sun shines on: this side, or the other of a surface that transmits light.
+          const auto& sunlit = transmits && facing < 0.0 ? side.transmittance : side.albedo;
+          const auto cosine = static_cast<float>(std::fabs(facing));
           for (const int k : {0, 1}) {
             if ((k == 0 ? hit->with : hit->without) == 0) continue;
             const float sun = (k == 0 ? hit->sun_with : hit->sun_without) != 0 ? cosine : 0.0F;
             const auto reflect = [&](const std::vector<std::array<float, 3>>& irradiance,
                                      std::array<float, 3>* radiance) {
+              const auto ambient = [&](const std::array<std::uint32_t, 3>& at, int c) {
+                return (1.0F - u - v) * irradiance[at[0]][c] + u * irradiance[at[1]][c] +
+                       v * irradiance[at[2]][c];
+              };
+              if (!transmits) {
+                for (int c = 0; c < 3; ++c) {
+                  (*radiance)[c] +=
+                      side.albedo[c] / kPi * (sun_irradiance[c] * sun + ambient(corners, c));
+                }
+                return;
+              }
               for (int c = 0; c < 3; ++c) {
-                const float ambient = (1.0F - u - v) * irradiance[corners[0]][c] +
-                                      u * irradiance[corners[1]][c] + v * irradiance[corners[2]][c];
-                (*radiance)[c] += albedo[c] / kPi * (sun_irradiance[c] * sun + ambient);
+                (*radiance)[c] +=
+                    (sunlit[c] * sun_irradiance[c] * sun + side.albedo[c] * ambient(corners, c) +
+                     side.transmittance[c] * ambient(behind, c)) /
+                    kPi;
               }
             };
             reflect(previous.irradiance[k], &sum[k]);

@@ -23,6 +23,7 @@ struct FinalGather {
     std::uint32_t without : 1;      ///< Seen with the phantoms alone.
     std::uint32_t sun_with : 1;     ///< Sunlit with the virtual objects present.
     std::uint32_t sun_without : 1;  ///< Sunlit with the phantoms alone.
+                                    ///< Where light is transmitted: on either side.
     std::uint32_t back : 1;
     std::uint32_t close : 1;  ///< Nearer than the layers of one real surface are apart.
     std::uint16_t u, v;       ///< Barycentric coordinates, 65535 = 1.

@@ -89,6 +89,11 @@ LitMesh MakeLitMesh(const PatchScene& scene, const PatchScene::MeshSide& mesh_si
   if (mesh.is_phantom) {
     mesh.ambient_without = scene.VertexLight(mesh_side, light.irradiance[1]);
     mesh.sunlight.reflected_without = scene.VertexLight(mesh_side, light.reflected[1]);
+  } else if (mesh_side.twin >= 0 && mesh_side.transmittance != std::array<float, 3>{}) {
+    // Both sides have the same vertices in the same order.
+    const PatchScene::MeshSide& behind = scene.mesh_sides[mesh_side.twin];
+    mesh.ambient_without = scene.VertexLight(behind, light.irradiance[0]);
+    mesh.sunlight.reflected_without = scene.VertexLight(behind, light.reflected[0]);
   } else {
     mesh.sunlight.lifts = OutwardLifts(mesh_side.mesh);
   }

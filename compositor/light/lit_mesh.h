@@ -61,10 +61,14 @@ struct LitMesh {
   MeshTexturing texturing;
   /// Sky and bounced light with the virtual objects present.
   std::vector<std::array<float, 3>> ambient_with;
-  /// The same with the phantoms alone. Empty for virtual objects.
+  /// The same with the phantoms alone. For a virtual object's side of a surface that transmits
+  /// light: the light on its other side. Empty for other virtual objects.
   std::vector<std::array<float, 3>> ambient_without;
   std::vector<std::uint32_t> indices;
   MeshSunlight sunlight;
+
+  /// True for a virtual object whose other side's light shines through.
+  bool IsTranslucent() const { return !is_phantom && !ambient_without.empty(); }
 
   /// The light of a vertex when sun and sky are `mix` times as strong.
   std::array<float, 3> AmbientWith(std::size_t vertex, const LightMix& mix) const {

@@ -12,6 +12,7 @@
 #include "compositor/light/light_refinement.h"
 #include "compositor/light/light_solver_options.h"
 #include "compositor/light/tessellation.h"
+#include "compositor/models/leaf_material.h"
 #include "compositor/models/model.h"
 #include "compositor/models/placed_model.h"
 
@@ -54,6 +55,17 @@ std::array<float, 3> MeanColor(const Image<std::uint8_t>& texture, const Materia
   return mean;
 }
 
+/// Multiplies a color by the mean of a texture, if the model has it.
+std::array<float, 3> TimesTexture(std::array<float, 3> color, const Model& model, int texture,
+                                  const Material& material) {
+  if (texture >= 0 && static_cast<std::size_t>(texture) < model.textures.size() &&
+      !model.textures[texture].empty()) {
+    const std::array<float, 3> mean = MeanColor(model.textures[texture], material);
+    for (int c = 0; c < 3; ++c) color[c] *= mean[c];
+  }
+  return color;
+}
+
 /// A metal reflects as much light as a matt surface of its color, though in other directions.
 /// Without this light, a polished object would blacken the ground below it.
 std::array<float, 3> ReflectanceOf(const Model& model, int material_index) {
@@ -61,16 +73,34 @@ std::array<float, 3> ReflectanceOf(const Model& model, int material_index) {
     return {Material{}.base_color};
   }
   const Material& material = model.materials[material_index];
-  std::array<float, 3> albedo = material.base_color;
-  const int texture = material.base_color_texture;
-  if (texture >= 0 && static_cast<std::size_t>(texture) < model.textures.size() &&
-      !model.textures[texture].empty()) {
-    const std::array<float, 3> mean = MeanColor(model.textures[texture], material);
-    for (int c = 0; c < 3; ++c) albedo[c] *= mean[c];
+  std::array<float, 3> albedo =
+      TimesTexture(material.base_color, model, material.base_color_texture, material);
+  if (material.detail.leaf) {
+    const float share = SurfaceShareOf(*material.detail.leaf);
+    for (float& value : albedo) value = share + (1.0F - share) * value;
   }
   // With an albedo of 1 or more, the light would never decay.
   for (float& value : albedo) value = std::clamp(value, 0.0F, 0.98F);
   return albedo;
+}
+
+/// Transmittance of a virtual object's surface beside that reflectance.
+std::array<float, 3> TransmittanceOf(const PlacedModel& placed, int material_index,
+                                     const std::array<float, 3>& albedo) {
+  const Model& model = *placed.model;
+  if (placed.is_phantom || material_index < 0 ||
+      static_cast<std::size_t>(material_index) >= model.materials.size()) {
+    return {};
+  }
+  const Material& material = model.materials[material_index];
+  if (!material.detail.Transmits()) return {};
+  std::array<float, 3> transmittance = TimesTexture(material.detail.transmission.color, model,
+                                                    material.detail.transmission.texture, material);
+  const float inside = material.detail.leaf ? 1.0F - SurfaceShareOf(*material.detail.leaf) : 1.0F;
+  for (int c = 0; c < 3; ++c) {
+    transmittance[c] = std::clamp(inside * transmittance[c], 0.0F, 0.98F - albedo[c]);
+  }
+  return transmittance;
 }
 
 /// Mean of the vertices' colors; white without any.
@@ -168,10 +198,16 @@ void AddSurfaceSamples(const PatchScene::MeshSide& mesh_side, PatchScene* scene)
   }
 }
 
-void AddSheet(SurfaceMesh mesh, const std::array<float, 3>& albedo,
+/// Light that a mesh side sends on.
+struct SideOptics {
+  std::array<float, 3> albedo{}, transmittance{};
+};
+
+void AddSheet(SurfaceMesh mesh, const SideOptics& optics,
               std::shared_ptr<const SurfacePatches> groups, PatchScene* scene) {
   PatchScene::MeshSide mesh_side;
-  mesh_side.albedo = albedo;
+  mesh_side.albedo = optics.albedo;
+  mesh_side.transmittance = optics.transmittance;
   mesh_side.first_patch = scene->patch_count;
   mesh_side.patch_count =
       groups ? groups->count : static_cast<std::uint32_t>(mesh.positions.size());
@@ -269,20 +305,23 @@ Result<PatchScene> PatchScene::Create(const std::vector<PlacedModel>& models,
     if (divided[i].count > 0) {
       groups = std::make_shared<const SurfacePatches>(std::move(divided[i]));
     }
-    std::array<float, 3> albedo =
-        ReflectanceOf(*models[surface.placed_model].model, surface.material);
+    const PlacedModel& placed = models[surface.placed_model];
+    SideOptics optics{ReflectanceOf(*placed.model, surface.material), {}};
+    const bool closed = surface.closed;
+    if (!closed) {
+      optics.transmittance = TransmittanceOf(placed, surface.material, optics.albedo);
+    }
     const std::array<float, 3> mean_color = MeanVertexColor(surface.details);
-    for (int c = 0; c < 3; ++c) albedo[c] *= mean_color[c];
+    for (int c = 0; c < 3; ++c) optics.albedo[c] *= mean_color[c];
     const auto front = static_cast<int>(scene.mesh_sides.size());
     if (surface.role != MeshRole::kRenderOnly) {
       AddFaces(surface, ray_meshes[next_ray_mesh++].indices, groups.get(),
                static_cast<std::uint32_t>(front), &scene);
     }
-    const bool closed = surface.closed;
     SurfaceMesh back = closed ? SurfaceMesh{} : OtherSide(surface);
-    AddSheet(std::move(surface), albedo, groups, &scene);
+    AddSheet(std::move(surface), optics, groups, &scene);
     if (!closed) {
-      AddSheet(std::move(back), albedo, groups, &scene);
+      AddSheet(std::move(back), optics, groups, &scene);
       scene.mesh_sides[front].twin = front + 1;
       scene.mesh_sides[front + 1].twin = front;
     }

@@ -26,6 +26,8 @@ struct PatchScene {
   struct MeshSide {
     SurfaceMesh mesh;
     std::array<float, 3> albedo{};  ///< Linear; mean of the texture; a metal's color.
+    /// Of an open virtual surface, from one side to the other; linear, mean of the texture.
+    std::array<float, 3> transmittance{};
     std::uint32_t first_patch = 0, patch_count = 0;
     int twin = -1;                                 ///< Index of the other side's mesh side.
     std::shared_ptr<const SurfacePatches> groups;  ///< Null: each vertex is a patch.
@@ -54,6 +56,9 @@ struct PatchScene {
   std::unique_ptr<RayScene> rays;
   std::unique_ptr<RayScene> foliage;  ///< Phantoms' foliage; occludes views; may be null.
 
+  bool Transmits(const Face& face) const {
+    return mesh_sides[face.mesh_side].transmittance != std::array<float, 3>{};
+  }
   const Face& FaceOf(const RayHit& hit) const { return faces[first_face[hit.mesh] + hit.triangle]; }
 
   /// Index of a patch's first surface sample, and the number of them.

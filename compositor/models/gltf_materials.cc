@@ -28,6 +28,8 @@ constexpr double kDefaultIor = 1.5, kMaxIor = 2.42;
 constexpr double kPaneTransmittance = 0.92;
 // Ten times the sun's disc.
 constexpr double kMaxLuminance_cd_m2 = 2e10;
+constexpr const char* kTransmissionBesideEmission =
+    "textures of diffuse transmission beside those of emission";
 constexpr const char* kThirdSet = "a third set of texture coordinates";
 // Of layers: their factors count alone.
 constexpr std::array<const char*, 4> kIgnoredTextures = {
@@ -128,6 +130,7 @@ class MaterialReader {
     PLEINAIR_RETURN_IF_ERROR(ReadEmission(source, &uvs, &material));
     material.detail.unlit = source.extensions.contains("KHR_materials_unlit");
     PLEINAIR_RETURN_IF_ERROR(ReadLayers(source, &material));
+    PLEINAIR_RETURN_IF_ERROR(ReadDiffuseTransmission(source, &uvs, &material));
     uvs_.push_back(uvs);
     NoteUnsupported(source, &material);
     model_.materials.push_back(std::move(material));
@@ -245,6 +248,43 @@ class MaterialReader {
     return {};
   }
 
+  /// KHR_materials_diffuse_transmission: the factor moves light from the base to the other side.
+  Result<void> ReadDiffuseTransmission(const tinygltf::Material& source, MaterialUvs* uvs,
+                                       Material* material) {
+    constexpr const char* kName = "KHR_materials_diffuse_transmission";
+    PLEINAIR_ASSIGN_OR_RETURN(const float mean,
+                              MeanOf(source, kName, "diffuseTransmissionTexture", 3));
+    const float factor = mean * Clamped(NumberOf(source, kName, "diffuseTransmissionFactor", 0.0)) *
+                         (1.0F - material->metallic);
+    if (factor <= 0.0F) return {};
+    DiffuseTransmission& transmission = material->detail.transmission;
+    transmission.color =
+        ColorOf(source, kName, "diffuseTransmissionColorFactor", {1.0F, 1.0F, 1.0F});
+    for (float& value : transmission.color) value *= factor * material->coat.base_share;
+    for (float& value : material->base_color) value *= 1.0F - factor;
+    const tinygltf::Value& texture =
+        GltfField(source.extensions.at(kName), "diffuseTransmissionColorTexture");
+    const tinygltf::Value& index = GltfField(texture, "index");
+    if (!index.IsInt()) return {};
+    tinygltf::TextureInfo info;
+    info.index = index.GetNumberAsInt();
+    if (const tinygltf::Value& set = GltfField(texture, "texCoord"); set.IsInt()) {
+      info.texCoord = set.GetNumberAsInt();
+    }
+    if (const tinygltf::Value& extensions = GltfField(texture, "extensions");
+        extensions.IsObject() && extensions.Has("KHR_texture_transform")) {
+      info.extensions["KHR_texture_transform"] = extensions.Get("KHR_texture_transform");
+    }
+    const auto coordinates = CoordinatesIn(uvs, UvMapOf(info));
+    if (!coordinates || material->detail.emission.texture >= 0) {
+      material->unsupported_features.insert(coordinates ? kTransmissionBesideEmission : kThirdSet);
+      return {};
+    }
+    PLEINAIR_ASSIGN_OR_RETURN(transmission.texture, Texture(info.index));
+    transmission.coordinates = *coordinates;
+    return {};
+  }
+
   /// The map of the first texture that the material has.
   static UvMap FirstMap(const tinygltf::Material& source) {
     const auto& pbr = source.pbrMetallicRoughness;
@@ -296,11 +336,17 @@ class MaterialReader {
   }
 
   static void NoteUnsupported(const tinygltf::Material& source, Material* material) {
-    static const std::set<std::string> kSupported = {
-        "KHR_materials_emissive_strength", "KHR_materials_unlit", "KHR_materials_ior",
-        "KHR_materials_specular",          "KHR_materials_sheen", "KHR_materials_clearcoat",
-        "KHR_materials_transmission"};
-    for (const auto& [extension, value] : source.extensions) {
+    static const std::set<std::string> kSupported = {"KHR_materials_emissive_strength",
+                                                     "KHR_materials_unlit",
+                                                     "KHR_materials_ior",
+                                                     "KHR_materials_specular",
+                                                     "KHR_materials_sheen",
+                                                     "KHR_materials_clearcoat",
+                                                     "KHR_materials_transmission",
+                                                     "KHR_materials_diffuse_transmission"};
+    for (const auto& entry : source.extensions) {
+      const std::string& extension = entry.first;
+      const tinygltf::Value& value = entry.second;
       if (!kSupported.contains(extension)) {
         material->unsupported_features.insert(Shortened(extension));
       } else if (std::ranges::any_of(kIgnoredTextures, [&](const char* key) {

@@ -27,13 +27,19 @@ constexpr std::size_t kMaxNameLength = 120;
 
 /// Extensions that a file may require and that change nothing the reader supports.
 const std::set<std::string>& KnownExtensions() {
-  static const std::set<std::string> known = {
-      "KHR_materials_specular",  "KHR_materials_ior",
-      "KHR_materials_clearcoat", "KHR_materials_sheen",
-      "KHR_materials_volume",    "KHR_materials_transmission",
-      "KHR_materials_unlit",     "KHR_materials_emissive_strength",
-      "KHR_mesh_quantization",   "KHR_lights_punctual",
-      "KHR_texture_transform",   "EXT_texture_webp"};
+  static const std::set<std::string> known = {"KHR_materials_specular",
+                                              "KHR_materials_ior",
+                                              "KHR_materials_clearcoat",
+                                              "KHR_materials_sheen",
+                                              "KHR_materials_volume",
+                                              "KHR_materials_transmission",
+                                              "KHR_materials_unlit",
+                                              "KHR_materials_emissive_strength",
+                                              "KHR_mesh_quantization",
+                                              "KHR_lights_punctual",
+                                              "KHR_texture_transform",
+                                              "EXT_texture_webp",
+                                              "KHR_materials_diffuse_transmission"};
   return known;
 }
 

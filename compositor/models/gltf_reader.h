@@ -19,9 +19,9 @@ bool LooksLikeGltf(std::string_view content);
 ///
 /// Supported are base color, metallic and roughness (factors and textures), alphaMode, alphaCutoff,
 /// normal maps, emission with its strength, vertex colors, unlit materials, KHR_texture_transform,
-/// and KHR_materials_ior, _specular, _clearcoat, _sheen and _transmission, whose textures are
-/// replaced by their mean. The textures of a material may use two sets of texture coordinates. With
-/// a third, metallic and roughness are replaced by their mean.
+/// and KHR_materials_ior, _specular, _clearcoat, _sheen, _diffuse_transmission and _transmission,
+/// whose textures are replaced by their mean. The textures of a material may use two sets of
+/// texture coordinates. With a third, metallic and roughness are replaced by their mean.
 ///
 /// Skins and morph targets have the shape of `pose`. KHR_mesh_quantization, and with their
 /// libraries EXT_meshopt_compression, KHR_draco_mesh_compression and EXT_texture_webp are read.

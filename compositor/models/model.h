@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "base/image.h"
 #include "base/vector.h"
 #include "compositor/models/model_frame.h"
+#include "scene/leaf_contents.h"
 
 namespace pleinair::compositor {
 
@@ -48,6 +50,22 @@ struct Emission {
   TextureCoordinates coordinates;
 };
 
+/// Light that a thin open surface scatters to its other side (KHR_materials_diffuse_transmission).
+struct DiffuseTransmission {
+  std::array<float, 3> color{};  ///< Transmittance, linear Rec.709; black: none.
+  /// Multiplies the color: index into Model::textures, -1 for none; sRGB. It takes the place of an
+  /// emission texture.
+  int texture = -1;
+  TextureCoordinates coordinates;
+};
+
+/// A leaf whose colors follow from its pigments (compositor/models/leaf_material.h).
+struct LeafSurface {
+  scene::Leaf leaf;
+  float gloss = 1.0F;       ///< Strength of the lobe; 0…4.
+  float roughness = 0.35F;  ///< γ of shaders/leaf_gloss.glsl; 0.05…1.
+};
+
 /// Layers over a material's base, and the tint of its coat (KHR_materials_specular, _clearcoat,
 /// _sheen).
 struct MaterialLayers {
@@ -65,6 +83,11 @@ struct MaterialDetail {
   TextureCoordinates metallic_roughness_coordinates;
   MaterialLayers layers;
   bool unlit = false;  ///< Shown in its own color, whatever the light (KHR_materials_unlit).
+  DiffuseTransmission transmission;
+  /// Then the material's colors are those under D65, and its roughness scales the gloss.
+  std::optional<LeafSurface> leaf;
+
+  bool Transmits() const { return transmission.color != std::array<float, 3>{}; }
 };
 
 /// A surface material, metallic–roughness; colors linear Rec.709.

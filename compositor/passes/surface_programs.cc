@@ -34,6 +34,7 @@ Result<SurfacePrograms> SurfacePrograms::Create(const shadows::ShadowMapOptions&
     if (permutation.needs_airlight) defines.emplace_back("AIRLIGHT");
     if (permutation.textured) defines.emplace_back("TEXTURED");
     if (permutation.detailed) defines.emplace_back("DETAILED");
+    if (permutation.translucent) defines.emplace_back("TRANSLUCENT");
     if (permutation.glossy) defines.emplace_back("GLOSSY");
     return gl::GlProgram::Create({.vertex = "compositor/shaders/screen_triangle.vert",
                                   .fragment = "compositor/shaders/" + fragment,

@@ -16,6 +16,7 @@ struct SurfacePrograms {
     bool needs_airlight = false;  ///< The airlight in front of the real surfaces is noticeable.
     bool textured = false;        ///< Some objects have textures.
     bool detailed = false;        ///< SceneMaterials::HasDetails().
+    bool translucent = false;     ///< SceneMaterials::HasTranslucent().
     bool glossy = false;          ///< Some objects are glossy.
   };
   /// Errors as gl::GlProgram::Create.

@@ -26,6 +26,27 @@ MaterialRecord RecordOf(int surface) {
                        texelFetch(u_surfaces, at + ivec2(4, 0), 0));
 }
 
+#ifdef TRANSLUCENT
+// A surface that transmits light, or a leaf. Opaque ones have no color here.
+struct TranslucentRecord {
+  vec3 through;  // Transmittance of the sky's light, before the texture.
+  float admits;  // 1: light enters and leaves past the gloss; 0: its diffuse part has all of it.
+  vec3 through_sun, base_sun;  // Factors of sunlight: of transmittance and base color.
+  float gloss, gloss_roughness;
+};
+
+TranslucentRecord TranslucentOf(int surface) {
+  ivec2 at = TexelOfSurface(surface);
+  vec4 through = texelFetch(u_surfaces, at + ivec2(8, 0), 0);
+  vec4 through_sun = texelFetch(u_surfaces, at + ivec2(9, 0), 0);
+  vec4 base_sun = texelFetch(u_surfaces, at + ivec2(10, 0), 0);
+  return TranslucentRecord(through.rgb, through.a, through_sun.rgb, base_sun.rgb, through_sun.a,
+                           base_sun.a);
+}
+
+bool Transmits(TranslucentRecord leaf) { return leaf.through != vec3(0.0); }
+#endif
+
 #ifdef DETAILED
 struct DetailRecord {
   vec3 emitted_cd_m2;

@@ -4,7 +4,8 @@
 // pixel shows faces away from the sun.
 //
 // TEXTURED: triangle_id.frag sampled textures. DETAILED: and bumps and emission; some objects may be
-// unlit. Needs TEXTURED and GLOSSY. GLOSSY: some objects are glossy. This is a
+// unlit. Needs TEXTURED and GLOSSY. TRANSLUCENT: some transmit light, or are leaves. Needs DETAILED.
+// GLOSSY: some objects are glossy. This is a
 // permutation, not a test, because Mesa's software renderer executes an `if` regardless of its
 // condition.
 
@@ -41,6 +42,9 @@ layout(binding = 4) uniform sampler2DMS u_texels;
 #ifdef DETAILED
 #include "compositor/shaders/sheen.glsl"
 #include "compositor/shaders/surface_gradient.glsl"
+#ifdef TRANSLUCENT
+#include "compositor/shaders/leaf_gloss.glsl"
+#endif
 const float kClearcoatF0 = 0.04;  // KHR_materials_clearcoat.
 layout(binding = 16) uniform sampler2DMS u_gradients;
 layout(binding = 17) uniform sampler2DMS u_emissions;
@@ -159,28 +163,78 @@ vec3 WithLayers(vec3 base, VisibleSurface surface, VisibleSurface coat, DetailRe
 }
 #endif
 
+#ifdef TRANSLUCENT
+// Light from this side and from behind, and the gloss of a leaf, whose map scales it. `sun` and
+// `sun_behind` include the surface's cosine, `lit_cosine`.
+vec3 LeafRadiance(VisibleSurface surface, vec3 diffuse, float gloss_map, TranslucentRecord leaf,
+                  vec3 sun, vec3 sun_behind, vec3 ambient_behind, float lit_cosine) {
+  vec3 to_eye = normalize(u_eye_m - surface.position_m);
+  float n_dot_v = max(dot(surface.normal, to_eye), 1e-4);
+  float gamma = leaf.gloss_roughness, gloss = leaf.gloss * gloss_map;
+  float admitted = leaf.admits * gloss;
+  float leaves = LeafAdmits(n_dot_v, gamma, admitted);
+  float enters = LeafAdmits(lit_cosine, gamma, admitted) / LeafAdmitsMean(gamma, admitted);
+  vec3 radiance = diffuse * (leaf.base_sun * sun * enters + surface.ambient_with);
+  radiance += leaf.through * (leaf.through_sun * sun_behind * enters + ambient_behind);
+  radiance *= leaves / kPi;
+  if (gloss > 0.0) {
+    vec3 half_vector = normalize(to_eye + u_to_sun);
+    radiance += gloss * sun *
+                LeafLobe(max(lit_cosine, 1e-4), n_dot_v, max(dot(surface.normal, half_vector), 0.0),
+                         max(dot(to_eye, half_vector), 0.0), gamma);
+    vec3 open = max(PrefilteredEnvironment(surface.normal, 1.0) * kPi, vec3(1e-6));
+    radiance += gloss * LeafReflectance(n_dot_v, gamma) *
+                PrefilteredEnvironment(reflect(-to_eye, surface.normal), sqrt(gamma)) *
+                clamp(surface.ambient_with / open, 0.0, 2.0);
+  }
+  return radiance;
+}
+#endif
+
 vec3 ColorOf(VisibleSurface surface, MaterialRecord record
 #ifdef DETAILED
              , VisibleSurface coat, DetailRecord detail
+#endif
+#ifdef TRANSLUCENT
+             , TranslucentRecord leaf, vec3 ambient_behind
 #endif
 ) {
 #ifdef NO_SUN
   vec3 sun_lux = vec3(0.0), sun = vec3(0.0);
 #else
+#ifdef TRANSLUCENT
+  // Light that shines through falls on the other side.
+  float side = Transmits(leaf) && dot(coat.normal, u_to_sun) < 0.0 ? -1.0 : 1.0;
+  float n_dot_l = max(side * dot(surface.normal, u_to_sun), 0.0);
+#else
   float n_dot_l = max(dot(surface.normal, u_to_sun), 0.0);
+#endif
 #ifdef DETAILED
   // Where the surface without bumps faces away from the sun, its bumps receive none. Their light
   // ends gradually before, so that no edges of triangles show.
+#ifdef TRANSLUCENT
+  if (dot(surface.normal, coat.normal) < 0.9999) {
+    n_dot_l *= smoothstep(0.0, 0.2, side * dot(coat.normal, u_to_sun));
+  }
+  vec3 normal = side * coat.normal;
+#else
   n_dot_l *= smoothstep(0.0, 0.2, dot(coat.normal, u_to_sun));
   vec3 normal = coat.normal;  // The curved surface has no bumps.
+#endif
 #else
   vec3 normal = surface.normal;
 #endif
   // A coarse mesh with smooth normals represents a curved surface. The sun shines on that, also
   // where its triangles already face away.
   vec3 lift = surface.lift + surface.ambient_without;
+#ifdef TRANSLUCENT
+  surface.flat_normal *= side;
+#endif
   bool curved =
       dot(lift, normal) > 0.0 && dot(normal, u_to_sun) > dot(surface.flat_normal, u_to_sun);
+#ifdef TRANSLUCENT
+  if (!curved) lift *= max(side, 0.0);  // It points out of this side.
+#endif
   float visibility = ShadowVisibility(1, surface.position_m + lift,
                                       curved ? normal : surface.flat_normal, surface.step_x,
                                       surface.step_y);
@@ -190,7 +244,21 @@ vec3 ColorOf(VisibleSurface surface, MaterialRecord record
 #endif
 
   vec3 diffuse = record.base_color * (1.0 - record.metallic) * record.base_under_coat;
+#ifdef TRANSLUCENT
+#ifdef NO_SUN
+  vec3 sun_behind = vec3(0.0);
+  float lit_cosine = 0.0;
+#else
+  vec3 sun_behind = side < 0.0 ? sun : vec3(0.0);
+  sun -= sun_behind;
+  if (side < 0.0) sun_lux = vec3(0.0);  // None for the layers of this side.
+  float lit_cosine = n_dot_l;
+#endif
+  vec3 radiance = LeafRadiance(surface, diffuse, record.roughness, leaf, sun, sun_behind,
+                               ambient_behind, lit_cosine);
+#else
   vec3 radiance = diffuse * (sun + surface.ambient_with) / kPi;
+#endif
 
 #ifdef GLOSSY
   vec3 f0 = vec3(record.dielectric_f0);
@@ -223,9 +291,29 @@ void main() {
 #endif
 #ifdef DETAILED
     DetailRecord detail = DetailOf(int(ValueOfComponent(int(ComponentOf(triangle)))));
+#ifdef TRANSLUCENT
+    TranslucentRecord leaf = TranslucentOf(int(ValueOfComponent(int(ComponentOf(triangle)))));
+    vec3 ambient_behind = vec3(0.0);
+    if (Transmits(leaf)) {  // The vertices have the light behind them in place of their lift.
+      // A lift turns with its object, light does not.
+      ambient_behind =
+          inverse(transpose(mat3(record.row_x.xyz, record.row_y.xyz, record.row_z.xyz))) *
+          surface.ambient_without;
+      surface.ambient_without = vec3(0.0);
+      leaf.through *= MeanOf(u_emissions, samples);
+    } else {
+      detail.emitted_cd_m2 *= MeanOf(u_emissions, samples);
+    }
+#else
     detail.emitted_cd_m2 *= MeanOf(u_emissions, samples);
+#endif
     VisibleSurface bumped = Bumped(surface, MeanOf(u_gradients, samples));
-    vec3 color = mix(ColorOf(bumped, record, surface, detail), record.base_color, detail.unlit);
+#ifdef TRANSLUCENT
+    vec3 shaded = ColorOf(bumped, record, surface, detail, leaf, ambient_behind);
+#else
+    vec3 shaded = ColorOf(bumped, record, surface, detail);
+#endif
+    vec3 color = mix(shaded, record.base_color, detail.unlit);
 #else
     vec3 color = ColorOf(surface, record);
 #endif

@@ -5,7 +5,7 @@
 // tests/compositor/shaders/shader_twins_test.cc).
 
 const int kTrianglesPerRow = 4096, kVerticesPerRow = 1365, kTexelsPerVertex = 3;
-const int kTexelsPerSurface = 8, kSurfacesPerRow = 512;
+const int kTexelsPerSurface = 11, kSurfacesPerRow = 512;
 const int kTexelsPerLinearRatio = 5, kLinearRatiosPerRow = 819;
 const int kKindBits = 3;
 

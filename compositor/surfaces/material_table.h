@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "compositor/models/leaf_material.h"
 #include "compositor/models/model.h"
 #include "gl/texture.h"
 
@@ -18,10 +19,12 @@ namespace pleinair::compositor {
 class MaterialTable {
  public:
   /// Layout; twins of shaders/visibility_buffer_layout.glsl.
-  static constexpr int kTexelsPerSurface = 8, kSurfacesPerRow = 512;
+  static constexpr int kTexelsPerSurface = 11, kSurfacesPerRow = 512;
 
-  /// Sets the material of `surface` (from 0), and its transform: marker from where it was lit.
-  void Set(std::size_t surface, const Material& material, const glm::mat4& marker_from_lit);
+  /// Sets the material of `surface` (from 0), how the light changes its colors, and its transform:
+  /// marker from where it was lit.
+  void Set(std::size_t surface, const Material& material, const LeafTints& tints,
+           const glm::mat4& marker_from_lit);
   /// Uploads the entries for the shaders. Errors (system): more surfaces than a texture holds (6
   /// million with llvmpipe), no memory.
   Result<void> Upload();

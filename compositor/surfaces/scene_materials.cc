@@ -31,9 +31,12 @@ bool SharesCoordinates(const TextureCoordinates& coordinates) {
          coordinates.offset == std::array<float, 2>{};
 }
 
+bool IsTranslucent(const MaterialDetail& detail) { return detail.Transmits() || detail.leaf; }
+
 bool HasDetail(const Material& material) {
   const MaterialDetail& detail = material.detail;
-  return detail.normal_map.texture >= 0 || detail.unlit || detail.layers != MaterialLayers{} ||
+  return detail.normal_map.texture >= 0 || detail.unlit || IsTranslucent(detail) ||
+         detail.layers != MaterialLayers{} ||
          detail.emission.luminance_cd_m2 != std::array<float, 3>{} ||
          (material.metallic_roughness_texture >= 0 &&
           !SharesCoordinates(detail.metallic_roughness_coordinates));
@@ -66,6 +69,7 @@ Result<SceneMaterials> SceneMaterials::Create(const std::vector<PlacedModel>& sc
       materials.has_gloss_ =
           materials.has_gloss_ || material.coat.f0 > 0.0F || material.metallic > 0.0F;
       materials.has_details_ = materials.has_details_ || HasDetail(material);
+      materials.has_translucent_ = materials.has_translucent_ || IsTranslucent(material.detail);
     }
   }
   if (materials.has_details_) {
@@ -83,7 +87,28 @@ void SceneMaterials::BindTextures(int placed_model, const Material& material) co
   bind(material.base_color_texture, 0);
   bind(material.metallic_roughness_texture, 1);
   bind(material.detail.normal_map.texture, 2);
-  bind(material.detail.emission.texture, 3);
+  const int transmission = material.detail.transmission.texture;
+  bind(transmission >= 0 ? transmission : material.detail.emission.texture, 3);
+}
+
+void SceneMaterials::SetLight(LinearRgb sun, LinearRgb sky) {
+  tints_.clear();
+  if (!has_translucent_) return;
+  const LeafIlluminant of_sun = LeafIlluminant::OfLight(sun);
+  const LeafIlluminant of_sky = LeafIlluminant::OfLight(sky);
+  for (std::size_t i = 0; i < scene_.size(); ++i) {
+    const std::vector<Material>& materials = scene_[i].model->materials;
+    for (std::size_t k = 0; k < materials.size(); ++k) {
+      const auto& leaf = materials[k].detail.leaf;
+      if (!leaf || scene_[i].is_phantom) continue;
+      tints_[{static_cast<int>(i), static_cast<int>(k)}] = LeafTintsIn(*leaf, of_sun, of_sky);
+    }
+  }
+}
+
+LeafTints SceneMaterials::TintsOf(int placed_model, int material) const {
+  const auto found = tints_.find({placed_model, material});
+  return found == tints_.end() ? LeafTints{} : found->second;
 }
 
 }  // namespace pleinair::compositor

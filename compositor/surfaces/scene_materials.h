@@ -1,9 +1,13 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
+#include "base/vector.h"
+#include "compositor/models/leaf_material.h"
 #include "compositor/models/model.h"
 #include "compositor/models/placed_model.h"
 #include "gl/texture.h"
@@ -34,12 +38,21 @@ class SceneMaterials {
   bool HasDetails() const { return has_details_; }
   /// Returns whether an object is glossy: it has a metal or a coat.
   bool HasGloss() const { return has_gloss_; }
+  /// Returns whether an object needs the permutation TRANSLUCENT of the shaders: it transmits light
+  /// or is a leaf.
+  bool HasTranslucent() const { return has_translucent_; }
+  /// Sets the colors of sun and sky, linear Rec.709, by which leaves change theirs.
+  void SetLight(LinearRgb sun, LinearRgb sky);
+  /// How this light changes a material's colors; only leaves have any change.
+  LeafTints TintsOf(int placed_model, int material) const;
   /// Returns whether an object has holes or glass.
   bool HasAlpha() const { return has_alpha_; }
 
  private:
   std::vector<PlacedModel> scene_;
   bool has_textures_ = false, has_alpha_ = false, has_gloss_ = false, has_details_ = false;
+  bool has_translucent_ = false;
+  std::map<std::pair<int, int>, LeafTints> tints_;  // By placed model and material: of leaves.
   gl::GlTexture white_;
   std::vector<std::vector<gl::GlTexture>> model_textures_;  // One list per placed model.
 };

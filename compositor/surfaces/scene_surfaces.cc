@@ -28,7 +28,10 @@ void SetDetail(const MaterialDetail& detail, bool is_back, const gl::GlProgram& 
               detail.normal_map.texture >= 0 ? side * detail.normal_map.scale : 0.0F);
   SetCoordinates("u_coat", detail.metallic_roughness_coordinates, program);
   SetCoordinates("u_normal", detail.normal_map.coordinates, program);
-  SetCoordinates("u_emission", detail.emission.coordinates, program);
+  SetCoordinates("u_emission",
+                 detail.transmission.texture >= 0 ? detail.transmission.coordinates
+                                                  : detail.emission.coordinates,
+                 program);
 }
 
 }  // namespace
@@ -100,6 +103,12 @@ Result<void> SceneSurfaces::SetSurfaces(const std::vector<LitMesh>& lit) {
   return {};
 }
 
+void SceneSurfaces::SetLightColors(LinearRgb sun, LinearRgb sky) {
+  if (!materials_.HasTranslucent()) return;
+  materials_.SetLight(sun, sky);
+  objects_placed_ = false;
+}
+
 void SceneSurfaces::Move(int placed_model, const Mat3& linear, Vec3 translation_m) {
   placement_.Move(placed_model, linear, translation_m, surfaces_);
   objects_placed_ = false;
@@ -164,6 +173,7 @@ Result<void> SceneSurfaces::SortObjects(const glm::vec3& to_sun) {
     }
     if (!objects_placed_) {
       object_materials_.Set(sorted.size(), MaterialOf(surface),
+                            materials_.TintsOf(surface.placed_model(), surface.material()),
                             glm::mat4(placement_.MovedBy(surface.placed_model())));
     }
     ends.push_back({triangles->facing_end(), surface.index_count()});

@@ -29,6 +29,8 @@ class SceneSurfaces {
   /// As Composer::SetLight(), SetLightMix() and MoveModel().
   Result<void> SetLit(const std::vector<LitMesh>& lit);
   Result<void> SetMix(const std::vector<LitMesh>& lit, const LightMix& mix);
+  /// Sets the colors of sun and sky, by which leaves change theirs.
+  void SetLightColors(LinearRgb sun, LinearRgb sky);
   void Move(int placed_model, const Mat3& linear, Vec3 translation_m);
 
   /// As Composer::SetOptions() for ComposerOptions::reductions.

@@ -7,7 +7,9 @@
 namespace pleinair::compositor {
 
 SunFacingTriangles::SunFacingTriangles(const LitMesh& object)
-    : indices_(object.indices), facing_end_(static_cast<int>(object.indices.size())) {
+    : is_translucent_(object.IsTranslucent()),
+      indices_(object.indices),
+      facing_end_(static_cast<int>(object.indices.size())) {
   normals_.reserve(object.normals.size());
   for (const auto& [x, y, z] : object.normals) normals_.emplace_back(x, y, z);
 }
@@ -24,7 +26,7 @@ bool SunFacingTriangles::Sort(const glm::vec3& to_sun) {
   for (std::size_t i = 0; i < indices_.size(); i += 3) {
     const auto first = indices_.begin() + static_cast<std::ptrdiff_t>(i);
     const bool away = std::all_of(first, first + 3, [&](std::uint32_t vertex) {
-      return no_sun || glm::dot(normals_[vertex], to_sun) < -kMargin;
+      return no_sun || (!is_translucent_ && glm::dot(normals_[vertex], to_sun) < -kMargin);
     });
     for (std::size_t k = i; k < i + 3; ++k) {
       if (away) {

@@ -31,6 +31,7 @@ class SunFacingTriangles {
   static constexpr float kMargin = 0.05F;
 
  private:
+  bool is_translucent_ = false;  // The sun shines on the other side too, and through.
   std::vector<glm::vec3> normals_;
   std::vector<std::uint32_t> indices_, turned_away_;
   std::optional<glm::vec3> sorted_for_;

@@ -69,11 +69,12 @@ Result<void> VisibilityBuffer::SetLight(std::span<const LitMesh* const> meshes,
       const auto& [x, y, z] = mesh->positions[i];
       const auto& [nx, ny, nz] = mesh->normals[i];
       const auto [r, g, b] = mesh->AmbientWith(i, mix);
-      // Virtual objects have no light in the case without them.
+      // Virtual objects have no light in the case without them, but some have one behind them.
       const auto& lifts = mesh->sunlight.lifts;
-      const auto [u, v, w] = mesh->is_phantom ? mesh->AmbientWithout(i, mix)
-                             : lifts.empty()  ? std::array<float, 3>{}
-                                              : lifts[i];
+      const auto [u, v, w] = mesh->is_phantom || mesh->IsTranslucent()
+                                 ? mesh->AmbientWithout(i, mix)
+                             : lifts.empty() ? std::array<float, 3>{}
+                                             : lifts[i];
       vertices.insert(vertices.end(), {{x, y, z, nx}, {r, g, b, ny}, {u, v, w, nz}});
     }
   }

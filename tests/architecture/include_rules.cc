@@ -40,7 +40,7 @@ const std::map<std::string, Names, std::less<>>& AllowedModules() {
 }
 
 /// The folders inside compositor, lowest first: a folder may include those before it.
-constexpr std::array kCompositorFolders = {"models",   "light",  "photometry",
+constexpr std::array kCompositorFolders = {"leaf",     "models", "light",  "photometry",
                                            "surfaces", "passes", "picture"};
 
 /// Index of a file in that order. GLSL twins and plain options lie below all folders; the composer
@@ -74,7 +74,8 @@ const std::vector<Library>& Libraries() {
        {"ceres/"},
        {"base", "files", "sky", "scene", "gl", "shadows", "compositor", "devices", "session",
         "export"},
-       true},
+       true,
+       "compositor/leaf/"},
       {"Eigen",
        {"Eigen/", "eigen3/", "unsupported/Eigen"},
        {"base", "files", "sky", "scene"},

@@ -332,5 +332,68 @@ TEST(SceneToml, OneMarkerAnchorsTheScene) {
               HasSubstr("given more than once"));
 }
 
+constexpr const char* kLeaves = R"(
+[[leaf]]
+materials = ["blade", "leaf_*"]
+spad = 42
+carotenoids_ug_cm2 = 9
+water_cm = 0.012
+gloss = 2
+pigment_map = "maps/pigment.png"
+[[leaf.stage]]
+date = 2025-05-01
+chlorophyll_ug_cm2 = 40
+[[leaf.stage]]
+date = 2025-05-11
+chlorophyll_ug_cm2 = 20
+dry_g_cm2 = 0.01
+[[leaf]]
+materials = ["old"]
+model = "plate"
+)";
+
+TEST(SceneToml, ReadsLeavesAndTheirStages) {
+  const tests::TemporaryFolder folder;
+  WriteModels(folder);
+  const auto scene =
+      ReadSceneDescription(folder.Write("scene.toml", std::string(kScene) + kLeaves));
+  ASSERT_TRUE(scene) << scene.error().Message();
+  ASSERT_EQ(scene->leaves.size(), 2U);
+  const LeafDescription& leaf = scene->leaves[0];
+  EXPECT_THAT(leaf.materials, ::testing::ElementsAre("blade", "leaf_*"));
+  EXPECT_NEAR(leaf.leaf.contents.chlorophyll_ug_cm2, 44.0, 0.1);  // Markwell et al. 1995.
+  EXPECT_EQ(leaf.gloss, 2.0);
+  EXPECT_EQ(leaf.roughness, 0.35);
+  EXPECT_THAT(leaf.maps.pigment.string(), ::testing::EndsWith("maps/pigment.png"));
+  EXPECT_EQ(scene->leaves[1].leaf.model, LeafModel::kPlate);
+  // Held before and after the stages, linear between them; other keys are the leaf's.
+  const auto at = [&](const char* time) { return LeafAt(leaf, *UtcTime::Parse(time)).contents; };
+  EXPECT_EQ(at("2024-01-01T00:00:00Z").chlorophyll_ug_cm2, 40.0);
+  EXPECT_NEAR(at("2025-05-06T00:00:00Z").chlorophyll_ug_cm2, 30.0, 1e-9);
+  EXPECT_NEAR(at("2025-05-06T00:00:00Z").dry_g_cm2, 0.005, 1e-12);
+  EXPECT_EQ(at("2025-12-01T00:00:00Z").chlorophyll_ug_cm2, 20.0);
+  EXPECT_EQ(at("2025-12-01T00:00:00Z").carotenoids_ug_cm2, 9.0);
+}
+
+TEST(SceneToml, RefusesImpossibleLeavesByLineAndKey) {
+  const auto refusal = [](const std::string& keys) {
+    return Refusal(std::string(kScene) + "[[leaf]]\nmaterials = [\"a\"]\n" + keys);
+  };
+  EXPECT_THAT(refusal("dry_g_cm2 = 20\n"),
+              AllOf(HasSubstr("scene.toml:37: dry_g_cm2 is 20: 0 to 0.05 g/cm²; milligrams?")));
+  EXPECT_THAT(refusal("chlorophyll_ug_cm2 = nan\n"), HasSubstr("is not finite"));
+  EXPECT_THAT(refusal("structure = 0.9\n"), HasSubstr("structure is 0.9: 1 to 4"));
+  EXPECT_THAT(refusal("roughness = 0\n"), HasSubstr("\"roughness\" is 0: 0.05 to 1"));
+  EXPECT_THAT(refusal("spad = 40\nchlorophyll_ug_cm2 = 40\n"),
+              HasSubstr("\"spad\" is given beside chlorophyll_ug_cm2"));
+  EXPECT_THAT(refusal("model = \"cube\"\n"), HasSubstr("known are prospect-d and plate"));
+  EXPECT_THAT(refusal("pigments = 3\n"), HasSubstr("\"pigments\" is unknown"));
+  EXPECT_THAT(refusal("[[leaf.stage]]\nbrown = 1\n"), HasSubstr("has no date"));
+  EXPECT_THAT(refusal("[[leaf.stage]]\ndate = 2025-02-01\n[[leaf.stage]]\ndate = 2025-01-01\n"),
+              HasSubstr("is not after that of the stage before"));
+  EXPECT_THAT(Refusal(std::string(kScene) + "[[leaf]]\nbrown = 1\n"),
+              HasSubstr("scene.toml:35: the table names no materials"));
+}
+
 }  // namespace
 }  // namespace pleinair::scene

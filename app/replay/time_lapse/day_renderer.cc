@@ -69,6 +69,7 @@ Result<RgbImage> DayRenderer::Render(const Transform<Camera, Marker>& camera_fro
   request.time = time;
   session::BakedLighting light(request);
   for (compositor::LitMesh& mesh : light.meshes) {
+    if (!mesh.is_phantom) continue;
     mesh.is_phantom = false;
     mesh.ambient_without.clear();
   }

@@ -150,11 +150,15 @@ class Transfer {
               const auto corners = CornersOf(face, *hit);
               const float u = static_cast<float>(hit->u) / 65535.0F;
               const float v = static_cast<float>(hit->v) / 65535.0F;
-              const auto& albedo = scene_.mesh_sides[face.mesh_side].albedo;
-              places.push_back(
-                  {{&arriving[corners[0]], &arriving[corners[1]], &arriving[corners[2]]},
-                   {1.0F - u - v, u, v},
-                   {albedo[0] * factor, albedo[1] * factor, albedo[2] * factor}});
+              const auto send = [&](const std::array<std::uint32_t, 3>& from,
+                                    const std::array<float, 3>& share) {
+                places.push_back({{&arriving[from[0]], &arriving[from[1]], &arriving[from[2]]},
+                                  {1.0F - u - v, u, v},
+                                  {share[0] * factor, share[1] * factor, share[2] * factor}});
+              };
+              const PatchScene::MeshSide& side = scene_.mesh_sides[face.mesh_side];
+              send(corners, side.albedo);
+              if (scene_.Transmits(face)) send(OtherCornersOf(face, *hit), side.transmittance);
             }
             AddInterreflections(places, &reflected[patch]);
           });
@@ -230,6 +234,8 @@ std::uint64_t GeometryHash(const PatchScene& scene, Vec3 up, const CoefficientOp
     add_all(mesh_side.mesh.normals);
     add_all(mesh_side.mesh.indices);
     add_all(mesh_side.albedo);
+    // Scenes that transmit no light keep their hash.
+    if (mesh_side.transmittance != std::array<float, 3>{}) add_all(mesh_side.transmittance);
     if (mesh_side.groups) add_all(mesh_side.groups->patch_of);
     const std::int32_t flags[] = {mesh_side.mesh.is_phantom, mesh_side.mesh.closed, mesh_side.twin,
                                   mesh_side.mesh.role == MeshRole::kRenderOnly};

@@ -142,6 +142,32 @@ TEST(GltfMaterial, ReadsLayersAndTransmission) {
   EXPECT_EQ(file.Load()->materials[0].alpha, Material::Alpha::kIgnored);
 }
 
+TEST(GltfMaterial, ReadsDiffuseTransmission) {
+  TriangleFile file;
+  file.picture = MakePng(1, 1, {{102, 51, 255}});
+  file.base = "0.8,0.4,0.2,1";
+  file.metallic = "0";
+  file.alpha =
+      R"("extensions":{"KHR_materials_diffuse_transmission":{"diffuseTransmissionFactor":0.25,)"
+      R"("diffuseTransmissionColorFactor":[1,0.5,0],)"
+      R"("diffuseTransmissionColorTexture":{"index":0}}},)";
+  auto model = file.Load();
+  ASSERT_TRUE(model) << model.error().Message();
+  EXPECT_THAT(UnsupportedFeatures(*model), IsEmpty());
+  const Material& material = model->materials[0];
+  // The factor takes light from the base.
+  EXPECT_NEAR(material.base_color[0], 0.8 * 0.75, 1e-6);
+  const DiffuseTransmission& transmission = material.detail.transmission;
+  EXPECT_NEAR(transmission.color[0], 0.25 * material.coat.base_share, 1e-6);
+  EXPECT_NEAR(transmission.color[1], 0.125 * material.coat.base_share, 1e-6);
+  EXPECT_EQ(transmission.color[2], 0.0F);
+  EXPECT_GE(transmission.texture, 0);
+  EXPECT_TRUE(material.detail.Transmits());
+  // Metal transmits nothing.
+  file.metallic = "1";
+  EXPECT_FALSE(file.Load()->materials[0].detail.Transmits());
+}
+
 TEST(GltfMaterial, ExpressesOneMapOfTextureCoordinatesByAnother) {
   MaterialUvs uvs{{0, {0.5, 0.25}, {2.0, 3.0}, 0.3}, {}};
   const UvMap other{0, {-1.0, 2.0}, {0.5, 4.0}, -1.1};

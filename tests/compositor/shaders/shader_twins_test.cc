@@ -289,7 +289,7 @@ TEST(TriangleLayout, GivesEachTriangleAndVertexTexelsOfItsOwn) {
   EXPECT_EQ(glsl::TexelOfTriangle(4096), glm::ivec2(0, 1));
   EXPECT_EQ(glsl::TexelOfVertex(1364), glm::ivec2(4092, 0));
   EXPECT_EQ(glsl::TexelOfVertex(1365), glm::ivec2(0, 1));
-  EXPECT_EQ(glsl::TexelOfSurface(511), glm::ivec2(4088, 0));
+  EXPECT_EQ(glsl::TexelOfSurface(511), glm::ivec2(5621, 0));
   EXPECT_EQ(glsl::TexelOfSurface(512), glm::ivec2(0, 1));
 }
 

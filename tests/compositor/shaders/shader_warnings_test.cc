@@ -66,6 +66,11 @@ TEST_F(ShaderWarnings, AreNoneOfSurfaces) {
               options, {.needs_airlight = needs_airlight, .textured = textured, .glossy = glossy}));
         }
       }
+      ExpectCreated(SurfacePrograms::Create(options, {.needs_airlight = needs_airlight,
+                                                      .textured = true,
+                                                      .detailed = true,
+                                                      .translucent = true,
+                                                      .glossy = true}));
     }
   }
 }

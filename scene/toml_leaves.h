@@ -1,0 +1,16 @@
+#pragma once
+
+#include <vector>
+
+#include "base/error.h"
+#include "scene/leaf_description.h"
+#include "scene/toml_table.h"
+
+namespace pleinair::scene {
+
+/// Reads the tables [[leaf]] of a scene. Paths of maps are resolved against the scene's folder.
+/// Errors name line and key: unknown keys and models, values out of range, spad beside chlorophyll,
+/// no materials, stages without a date or out of order.
+Result<std::vector<LeafDescription>> ReadLeaves(const TomlTable& scene);
+
+}  // namespace pleinair::scene
