@@ -138,6 +138,19 @@ std::string ModelText(const Model& model, const ModelFrame& frame, const ModelFa
       text += fmt::format("      {}: picture of {} x {}\n", use, image.width(), image.height());
     }
   }
+  if (!model.animations.empty()) {
+    text += fmt::format("  animations {}\n", model.animations.size());
+  }
+  for (std::size_t i = 0; i < model.animations.size(); ++i) {
+    if (i == kMaxListed) {
+      text += fmt::format("    and {} more\n", model.animations.size() - kMaxListed);
+      break;
+    }
+    const compositor::AnimationInFile& animation = model.animations[i];
+    text +=
+        fmt::format("    {}: {}, {:.2f} s\n", i,
+                    animation.name.empty() ? "(no name)" : animation.name, animation.duration_s);
+  }
   const std::set<std::string> unsupported = UnsupportedFeatures(model);
   text += fmt::format("  not drawn  {}\n", unsupported.empty()
                                                ? "nothing"
@@ -172,6 +185,10 @@ std::string ModelJson(const Model& model, const ModelFrame& frame, const ModelFa
       entry["textures"].push_back({{"use", use}, {"texture", texture}});
     }
     json["materials"].push_back(std::move(entry));
+  }
+  json["animations"] = nlohmann::json::array();
+  for (const compositor::AnimationInFile& animation : model.animations) {
+    json["animations"].push_back({{"name", animation.name}, {"duration_s", animation.duration_s}});
   }
   json["textures"] = nlohmann::json::array();
   for (const auto& image : model.textures) {

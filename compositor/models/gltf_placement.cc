@@ -18,23 +18,23 @@ Mat3 RotationFromQuaternion(double x, double y, double z, double w) {
 
 }  // namespace
 
-GltfPlacement PlacementOf(const tinygltf::Node& node) {
-  GltfPlacement placement;
+GltfPlacement GltfTransform::Placement() const {
+  if (matrix) return *matrix;
+  const auto& [x, y, z, w] = rotation;
+  return {RotationFromQuaternion(x, y, z, w) * Mat3{{scale.x, 0, 0, 0, scale.y, 0, 0, 0, scale.z}},
+          translation_m};
+}
+
+GltfTransform TransformOf(const tinygltf::Node& node) {
+  GltfTransform transform;
   if (const auto& m = node.matrix; m.size() == 16) {  // Column-major.
-    placement.linear = {{m[0], m[4], m[8], m[1], m[5], m[9], m[2], m[6], m[10]}};
-    placement.translation_m = {m[12], m[13], m[14]};
-    return placement;
+    transform.matrix = GltfPlacement{{{m[0], m[4], m[8], m[1], m[5], m[9], m[2], m[6], m[10]}},
+                                     {m[12], m[13], m[14]}};
   }
-  if (const auto& q = node.rotation; q.size() == 4) {
-    placement.linear = RotationFromQuaternion(q[0], q[1], q[2], q[3]);
-  }
-  if (const auto& s = node.scale; s.size() == 3) {
-    placement.linear = placement.linear * Mat3{{s[0], 0, 0, 0, s[1], 0, 0, 0, s[2]}};
-  }
-  if (const auto& t = node.translation; t.size() == 3) {
-    placement.translation_m = {t[0], t[1], t[2]};
-  }
-  return placement;
+  if (const auto& q = node.rotation; q.size() == 4) transform.rotation = {q[0], q[1], q[2], q[3]};
+  if (const auto& s = node.scale; s.size() == 3) transform.scale = {s[0], s[1], s[2]};
+  if (const auto& t = node.translation; t.size() == 3) transform.translation_m = {t[0], t[1], t[2]};
+  return transform;
 }
 
 bool IsFinite(const GltfPlacement& placement) {

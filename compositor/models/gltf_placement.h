@@ -3,6 +3,7 @@
 // Internal: between the .cc files of this module; not installed.
 
 #include <array>
+#include <optional>
 
 #include "base/vector.h"
 
@@ -24,9 +25,19 @@ struct GltfPlacement {
 /// glTF's y-up, −z-forward axes to ours: z up.
 inline constexpr GltfPlacement kUpright{{{1, 0, 0, 0, 0, -1, 0, 1, 0}}, {}};
 
-/// Computes a node's transform from its matrix, or from its rotation, scale and translation (glTF
-/// 2.0, section 3.5.2).
-GltfPlacement PlacementOf(const tinygltf::Node& node);
+/// The transform of a node (glTF 2.0, section 3.5.2): a matrix, or scale, then rotation, then
+/// translation.
+struct GltfTransform {
+  std::optional<GltfPlacement> matrix;         ///< In place of the rest.
+  std::array<double, 4> rotation{0, 0, 0, 1};  ///< Quaternion x, y, z, w, of any length.
+  Vec3 scale{1, 1, 1};
+  Vec3 translation_m;
+
+  /// Parent from node coordinates.
+  GltfPlacement Placement() const;
+};
+
+GltfTransform TransformOf(const tinygltf::Node& node);
 
 bool IsFinite(const GltfPlacement& placement);
 

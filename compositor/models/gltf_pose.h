@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "compositor/models/animation/gltf_clip.h"
 #include "compositor/models/gltf_placement.h"
 #include "compositor/models/model.h"
 
@@ -25,16 +26,7 @@ struct ModelPose {
 Result<Model> LoadModel(const std::filesystem::path& file, const ModelOptions& options,
                         const ModelPose& pose);
 
-/// The nodes of a glTF file at one moment.
-struct GltfPose {
-  std::vector<GltfPlacement> local;         ///< By node: parent from node coordinates.
-  std::vector<std::vector<float>> weights;  ///< Of morph targets, by node; empty: its mesh's.
-};
-
-/// Evaluates an animation (glTF 2.0, 3.11 and appendix C): steps, lines with spherical
-/// interpolation of rotations, and cubic splines. Errors: no such animation; times that are not
-/// finite or do not increase; counts that do not match; a property that moves twice. `where` names
-/// the file.
+/// Evaluates an animation at one moment. Errors as GltfClip::Read(). `where` names the file.
 Result<GltfPose> PoseOf(const tinygltf::Model& gltf, const ModelPose& pose,
                         const std::string& where);
 

@@ -22,6 +22,7 @@
 namespace pleinair::compositor {
 namespace {
 
+constexpr const char* kUnchosenAnimations = "animations";
 // Max. length of the name of the program that wrote the file.
 constexpr std::size_t kMaxNameLength = 120;
 
@@ -62,6 +63,13 @@ class GltfReader {
     model_.format = Model::Format::kGltf;
   }
 
+  /// What moves the model that Read() returned.
+  Result<std::shared_ptr<GltfRig>> ReadRig(const Model& model, const std::string& animation) const {
+    std::vector<GltfPart> parts = parts_;
+    for (std::size_t i = 0; i < parts.size(); ++i) parts[i].indices = model.meshes[i].indices;
+    return GltfRig::Create(gltf_, parts, model.origin_m, animation, where_);
+  }
+
   Result<Model> Read() {
     PLEINAIR_RETURN_IF_ERROR(Parse());
     for (const std::string& extension : gltf_.extensionsRequired) {
@@ -77,8 +85,9 @@ class GltfReader {
     PLEINAIR_RETURN_IF_ERROR(ReadNodes());
     if (model_.meshes.empty()) return GltfError(where_, "its scene has no triangles");
     model_.written_by = gltf_.asset.generator.substr(0, kMaxNameLength);
+    ListAnimations();
     if (!gltf_.animations.empty() && moment_.animation.empty()) {
-      model_.unsupported_features.insert("animations");
+      model_.unsupported_features.insert(kUnchosenAnimations);
     }
     return std::move(model_);
   }
@@ -93,8 +102,22 @@ class GltfReader {
   /// Shape of a node's mesh.
   struct Shape {
     const std::vector<float>& weights;  ///< Of its morph targets.
-    int skin;                           ///< -1 for none.
+    std::size_t node;
+    int skin;  ///< -1 for none.
   };
+
+  void ListAnimations() {
+    for (const tinygltf::Animation& animation : gltf_.animations) {
+      AnimationInFile& listed = model_.animations.emplace_back();
+      listed.name = animation.name.substr(0, kMaxNameLength);
+      for (const tinygltf::AnimationSampler& sampler : animation.samplers) {
+        if (!IsGltfIndex(sampler.input, gltf_.accessors.size())) continue;
+        const auto& times = gltf_.accessors[static_cast<std::size_t>(sampler.input)].maxValues;
+        if (times.empty() || !std::isfinite(times[0])) continue;
+        listed.duration_s = std::max(listed.duration_s, times[0]);
+      }
+    }
+  }
 
   Result<void> Parse() {
     tinygltf::TinyGLTF loader;
@@ -166,7 +189,7 @@ class GltfReader {
                          "the placement of node " + std::to_string(index) + " is not finite");
       }
       if (node.mesh >= 0) {
-        PLEINAIR_RETURN_IF_ERROR(ReadMesh(node, posed_.pose.weights[index], placement));
+        PLEINAIR_RETURN_IF_ERROR(ReadMesh(index, posed_.pose.weights[index], placement));
       }
       for (auto child = node.children.rbegin(); child != node.children.rend(); ++child) {
         to_visit.push_back({*child, placement});
@@ -176,8 +199,9 @@ class GltfReader {
   }
 
   /// `weights`: of the node's morph targets; empty: its mesh's.
-  Result<void> ReadMesh(const tinygltf::Node& node, const std::vector<float>& weights,
+  Result<void> ReadMesh(std::size_t index, const std::vector<float>& weights,
                         const GltfPlacement& placement) {
+    const tinygltf::Node& node = gltf_.nodes[index];
     if (!IsGltfIndex(node.mesh, gltf_.meshes.size())) {
       return GltfError(where_, "refers to a mesh out of range");
     }
@@ -185,7 +209,7 @@ class GltfReader {
     const std::vector<float> own(source.weights.begin(), source.weights.end());
     for (const tinygltf::Primitive& primitive : source.primitives) {
       PLEINAIR_RETURN_IF_ERROR(ReadPrimitive(source.name, primitive,
-                                             {weights.empty() ? own : weights, node.skin},
+                                             {weights.empty() ? own : weights, index, node.skin},
                                              node.skin >= 0 ? kUpright : placement));
     }
     return {};
@@ -234,7 +258,9 @@ class GltfReader {
     }
     PLEINAIR_RETURN_IF_ERROR(ReadTriangles(primitive, mode, &mesh));
     PLEINAIR_RETURN_IF_ERROR(Place(placement, &mesh));
-    if (!mesh.indices.empty()) model_.meshes.push_back(std::move(mesh));
+    if (mesh.indices.empty()) return {};
+    parts_.push_back({shape.node, &primitive, {}});
+    model_.meshes.push_back(std::move(mesh));
     return {};
   }
 
@@ -341,6 +367,7 @@ class GltfReader {
   Model model_;
   std::vector<MaterialUvs> uvs_;  ///< By material.
   Posed posed_;
+  std::vector<GltfPart> parts_;  ///< By mesh of the model.
   bool has_vertex_ = false;
   std::size_t vertex_count_ = 0;
   std::size_t triangle_count_ = 0;
@@ -357,6 +384,17 @@ bool LooksLikeGltf(std::string_view content) {
 Result<Model> ParseGltf(std::string content, const std::filesystem::path& file,
                         const ModelPose& pose) {
   return GltfReader(std::move(content), file, pose).Read();
+}
+
+Result<MovingGltf> ParseMovingGltf(std::string content, const std::filesystem::path& file,
+                                   const std::string& animation) {
+  const ModelPose at_rest;
+  GltfReader reader(std::move(content), file, at_rest);
+  MovingGltf moving;
+  PLEINAIR_ASSIGN_OR_RETURN(moving.model, reader.Read());
+  moving.model.unsupported_features.erase(kUnchosenAnimations);
+  PLEINAIR_ASSIGN_OR_RETURN(moving.rig, reader.ReadRig(moving.model, animation));
+  return moving;
 }
 
 }  // namespace pleinair::compositor

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 
 #include "base/error.h"
+#include "compositor/models/animation/gltf_rig.h"
 #include "compositor/models/gltf_pose.h"
 #include "compositor/models/model.h"
 
@@ -34,5 +36,15 @@ bool LooksLikeGltf(std::string_view content);
 /// finite, textures missing or too large, an unknown required extension.
 Result<Model> ParseGltf(std::string content, const std::filesystem::path& file,
                         const ModelPose& pose = {});
+
+/// A glTF file in the pose of its nodes, and what moves it.
+struct MovingGltf {
+  Model model;
+  std::shared_ptr<GltfRig> rig;
+};
+
+/// As ParseGltf(), with an animation. Further errors as GltfRig::Create().
+Result<MovingGltf> ParseMovingGltf(std::string content, const std::filesystem::path& file,
+                                   const std::string& animation);
 
 }  // namespace pleinair::compositor

@@ -32,24 +32,6 @@ Result<void> AddScaled(const tinygltf::Model& gltf, int accessor, float weight,
   return {};
 }
 
-/// Inverse bind matrices of a skin, column-major; identities if it has none.
-Result<std::vector<GltfPlacement>> InverseBinds(const tinygltf::Model& gltf,
-                                                const tinygltf::Skin& skin,
-                                                const std::string& where) {
-  std::vector<GltfPlacement> binds(skin.joints.size());
-  if (skin.inverseBindMatrices < 0) return binds;
-  PLEINAIR_ASSIGN_OR_RETURN(const auto matrices,
-                            ReadGltfFloats<16>(gltf, skin.inverseBindMatrices, where));
-  if (matrices.size() < binds.size()) {
-    return GltfError(where, "a skin has fewer matrices than joints");
-  }
-  for (std::size_t i = 0; i < binds.size(); ++i) {
-    const auto& m = matrices[i];
-    binds[i] = {{{m[0], m[4], m[8], m[1], m[5], m[9], m[2], m[6], m[10]}}, {m[12], m[13], m[14]}};
-  }
-  return binds;
-}
-
 /// Scene from bind coordinates, by joint.
 Result<std::vector<GltfPlacement>> JointPlacements(const tinygltf::Model& gltf, int skin,
                                                    const std::vector<GltfPlacement>& placements,
@@ -58,7 +40,7 @@ Result<std::vector<GltfPlacement>> JointPlacements(const tinygltf::Model& gltf, 
     return GltfError(where, "refers to a skin out of range");
   }
   const tinygltf::Skin& source = gltf.skins[static_cast<std::size_t>(skin)];
-  PLEINAIR_ASSIGN_OR_RETURN(std::vector<GltfPlacement> joints, InverseBinds(gltf, source, where));
+  PLEINAIR_ASSIGN_OR_RETURN(std::vector<GltfPlacement> joints, InverseBinds(gltf, skin, where));
   for (std::size_t i = 0; i < joints.size(); ++i) {
     if (!IsGltfIndex(source.joints[i], placements.size())) {
       return GltfError(where, "a skin refers to a joint out of range");
@@ -79,6 +61,51 @@ Float3 Narrowed(Vec3 v) {
 }
 
 }  // namespace
+
+Result<std::vector<GltfPlacement>> InverseBinds(const tinygltf::Model& gltf, int skin,
+                                                const std::string& where) {
+  const tinygltf::Skin& source = gltf.skins[static_cast<std::size_t>(skin)];
+  std::vector<GltfPlacement> binds(source.joints.size());
+  if (source.inverseBindMatrices < 0) return binds;
+  PLEINAIR_ASSIGN_OR_RETURN(const auto matrices,
+                            ReadGltfFloats<16>(gltf, source.inverseBindMatrices, where));
+  if (matrices.size() < binds.size()) {
+    return GltfError(where, "a skin has fewer matrices than joints");
+  }
+  for (std::size_t i = 0; i < binds.size(); ++i) {
+    const auto& m = matrices[i];
+    binds[i] = {{{m[0], m[4], m[8], m[1], m[5], m[9], m[2], m[6], m[10]}}, {m[12], m[13], m[14]}};
+  }
+  return binds;
+}
+
+Result<std::vector<SkinWeights>> ReadSkinWeights(const tinygltf::Model& gltf,
+                                                 const tinygltf::Primitive& primitive,
+                                                 std::size_t joints, std::size_t vertices,
+                                                 const std::string& where) {
+  std::vector<SkinWeights> sets;
+  for (int set = 0; set < kMaxSets; ++set) {
+    const auto joint_set = primitive.attributes.find("JOINTS_" + std::to_string(set));
+    const auto weight_set = primitive.attributes.find("WEIGHTS_" + std::to_string(set));
+    if (joint_set == primitive.attributes.end() || weight_set == primitive.attributes.end()) break;
+    SkinWeights& read = sets.emplace_back();
+    PLEINAIR_ASSIGN_OR_RETURN(read.joints, ReadGltfFloats<4>(gltf, joint_set->second, where));
+    PLEINAIR_ASSIGN_OR_RETURN(read.weights, ReadGltfFloats<4>(gltf, weight_set->second, where));
+    if (read.joints.size() != vertices || read.weights.size() != vertices) {
+      return GltfError(where, "a mesh has more or fewer joints or weights than positions");
+    }
+    for (std::size_t i = 0; i < vertices; ++i) {
+      for (std::size_t k = 0; k < 4; ++k) {
+        const float joint = read.joints[i][k];
+        if (!(read.weights[i][k] > 0.0F)) continue;
+        if (!(joint >= 0.0F && joint < static_cast<float>(joints))) {
+          return GltfError(where, "a vertex refers to a joint out of range");
+        }
+      }
+    }
+  }
+  return sets;
+}
 
 Result<void> ApplyMorphTargets(const tinygltf::Model& gltf, const tinygltf::Primitive& primitive,
                                std::span<const float> weights, const std::string& where,
@@ -110,25 +137,14 @@ Result<void> ApplySkin(const tinygltf::Model& gltf, const tinygltf::Primitive& p
   const std::size_t count = mesh->positions.size();
   std::vector<GltfPlacement> blended(count, {{{0, 0, 0, 0, 0, 0, 0, 0, 0}}, {}});
   std::vector<double> sums(count);
-  for (int set = 0; set < kMaxSets; ++set) {
-    const auto joint_set = primitive.attributes.find("JOINTS_" + std::to_string(set));
-    const auto weight_set = primitive.attributes.find("WEIGHTS_" + std::to_string(set));
-    if (joint_set == primitive.attributes.end() || weight_set == primitive.attributes.end()) break;
-    PLEINAIR_ASSIGN_OR_RETURN(const auto numbers,
-                              ReadGltfFloats<4>(gltf, joint_set->second, where));
-    PLEINAIR_ASSIGN_OR_RETURN(const auto weights,
-                              ReadGltfFloats<4>(gltf, weight_set->second, where));
-    if (numbers.size() != count || weights.size() != count) {
-      return GltfError(where, "a mesh has more or fewer joints or weights than positions");
-    }
+  PLEINAIR_ASSIGN_OR_RETURN(const std::vector<SkinWeights> sets,
+                            ReadSkinWeights(gltf, primitive, joints.size(), count, where));
+  for (const SkinWeights& set : sets) {
     for (std::size_t i = 0; i < count; ++i) {
       for (std::size_t k = 0; k < 4; ++k) {
-        if (!(weights[i][k] > 0.0F)) continue;
-        if (!(numbers[i][k] >= 0.0F && numbers[i][k] < static_cast<float>(joints.size()))) {
-          return GltfError(where, "a vertex refers to a joint out of range");
-        }
-        Add(joints[static_cast<std::size_t>(numbers[i][k])], weights[i][k], &blended[i]);
-        sums[i] += weights[i][k];
+        if (!(set.weights[i][k] > 0.0F)) continue;
+        Add(joints[static_cast<std::size_t>(set.joints[i][k])], set.weights[i][k], &blended[i]);
+        sums[i] += set.weights[i][k];
       }
     }
   }

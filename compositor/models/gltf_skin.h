@@ -2,6 +2,8 @@
 
 // Internal: between the .cc files of this module; not installed.
 
+#include <array>
+#include <cstddef>
 #include <span>
 #include <string>
 #include <vector>
@@ -16,6 +18,23 @@ struct Primitive;
 }  // namespace tinygltf
 
 namespace pleinair::compositor {
+
+/// Four joints and weights a vertex: JOINTS_n and WEIGHTS_n.
+struct SkinWeights {
+  std::vector<std::array<float, 4>> joints;  ///< Numbers within the skin.
+  std::vector<std::array<float, 4>> weights;
+};
+
+/// Inverse bind matrices of a skin; identities if it has none. The skin must be one of the file.
+Result<std::vector<GltfPlacement>> InverseBinds(const tinygltf::Model& gltf, int skin,
+                                                const std::string& where);
+
+/// Reads at most two sets of a primitive. Errors: joints with a weight that the skin of `joints`
+/// does not have; another number than `vertices`.
+Result<std::vector<SkinWeights>> ReadSkinWeights(const tinygltf::Model& gltf,
+                                                 const tinygltf::Primitive& primitive,
+                                                 std::size_t joints, std::size_t vertices,
+                                                 const std::string& where);
 
 /// Adds a primitive's morph targets, times their weights, to a mesh that was read from it
 /// (glTF 2.0, 3.7.2.2). Missing weights are zero. Errors: targets with another number of vertices.

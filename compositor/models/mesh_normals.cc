@@ -48,13 +48,16 @@ void RemoveDegenerate(Mesh* mesh) {
 
 /// Gives triangles that satisfy `is_flat` corners of their own with the triangle's normal.
 template <typename Predicate>
-void Flatten(Mesh* mesh, const Predicate& is_flat) {
+VertexSources Flatten(Mesh* mesh, const Predicate& is_flat) {
+  VertexSources sources;
   Mesh out;
   out.name = mesh->name;
   out.material = mesh->material;
   constexpr std::uint32_t kUnused = ~0U;
   std::vector<std::uint32_t> shared(mesh->positions.size(), kUnused);
-  const auto copy = [&](std::uint32_t vertex, const Float3& normal) {
+  const auto copy = [&](std::uint32_t vertex, const Float3& normal, bool flat) {
+    sources.vertices.push_back(vertex);
+    sources.flat.push_back(flat ? 1 : 0);
     out.positions.push_back(mesh->positions[vertex]);
     out.normals.push_back(normal);
     if (!mesh->uvs.empty()) out.uvs.push_back(mesh->uvs[vertex]);
@@ -67,17 +70,22 @@ void Flatten(Mesh* mesh, const Predicate& is_flat) {
     for (int c = 0; c < 3; ++c) {
       const std::uint32_t vertex = mesh->indices[i + c];
       if (flat) {
-        out.indices.push_back(copy(vertex, normal));
+        out.indices.push_back(copy(vertex, normal, true));
         continue;
       }
-      if (shared[vertex] == kUnused) shared[vertex] = copy(vertex, mesh->normals[vertex]);
+      if (shared[vertex] == kUnused) {
+        shared[vertex] = copy(vertex, mesh->normals[vertex], false);
+      }
       out.indices.push_back(shared[vertex]);
     }
   }
   *mesh = std::move(out);
+  return sources;
 }
 
-void Smooth(Model* model) {
+}  // namespace
+
+void SmoothNormals(Model* model) {
   std::map<Float3, Vec3> sums;
   for (const Mesh& mesh : model->meshes) {
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
@@ -102,26 +110,29 @@ void Smooth(Model* model) {
   }
 }
 
-}  // namespace
-
-void ApplyNormals(NormalsMode mode, Model* model) {
+std::vector<VertexSources> ApplyNormals(NormalsMode mode, Model* model) {
   for (Mesh& mesh : model->meshes) RemoveDegenerate(&mesh);
-  if (mode == NormalsMode::kSmooth) Smooth(model);
-  for (Mesh& mesh : model->meshes) {
+  if (mode == NormalsMode::kSmooth) SmoothNormals(model);
+  std::vector<VertexSources> sources;
+  for (std::size_t m = 0; m < model->meshes.size(); ++m) {
+    Mesh& mesh = model->meshes[m];
     mesh.normals.resize(mesh.positions.size());
     for (Float3& normal : mesh.normals) {
       const double norm = Norm(ToVec3(normal));
       normal = norm > 1e-12 ? UnitFloats(ToVec3(normal)) : Float3{};
     }
-    Flatten(&mesh, [&](std::size_t first) {
+    VertexSources flattened = Flatten(&mesh, [&](std::size_t first) {
       if (mode == NormalsMode::kFlat) return true;
       for (int c = 0; c < 3; ++c) {
         if (mesh.normals[mesh.indices[first + c]] == Float3{}) return true;
       }
       return false;
     });
+    flattened.mesh = m;
+    if (!mesh.indices.empty()) sources.push_back(std::move(flattened));
   }
   std::erase_if(model->meshes, [](const Mesh& mesh) { return mesh.indices.empty(); });
+  return sources;
 }
 
 }  // namespace pleinair::compositor

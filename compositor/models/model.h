@@ -138,6 +138,12 @@ struct Mesh {
   std::vector<std::uint32_t> indices;  ///< Three per triangle, counter-clockwise from outside.
 };
 
+/// An animation in a file.
+struct AnimationInFile {
+  std::string name;         ///< May be empty.
+  double duration_s = 0.0;  ///< As the file states it.
+};
+
 /// A loaded model: indexed triangle meshes with their materials and textures.
 struct Model {
   enum class Format { kObj, kGltf };
@@ -153,6 +159,7 @@ struct Model {
   std::vector<Material> materials;
   std::vector<Mesh> meshes;
   std::vector<Image<std::uint8_t>> textures;  ///< As in the file, 3 or 4 channels.
+  std::vector<AnimationInFile> animations;    ///< Those that a scene may name.
   /// Unsupported features of the file besides its materials, as user messages: "animations".
   std::set<std::string> unsupported_features;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 
@@ -48,7 +49,7 @@ ModelBounds BoundsOf(const Model& model) {
   return {box.min_m + model.origin_m, box.max_m + model.origin_m};
 }
 
-void ApplyFrame(const ModelFrame& frame, Model* model) {
+FrameMap ApplyFrame(const ModelFrame& frame, Model* model) {
   const Mat3 turn = PlacedFromRead(frame, model->format);
   const auto place = [&](Vec3 v) { return turn * (v * frame.unit_m); };
   if (turn != Mat3{} || frame.unit_m != 1.0) {
@@ -58,7 +59,9 @@ void ApplyFrame(const ModelFrame& frame, Model* model) {
       for (auto& n : mesh.normals) n = Narrowed(turn * Vec3{n[0], n[1], n[2]});
     }
   }
-  if (!frame.bottom_centre) return;
+  FrameMap map;
+  for (std::size_t i = 0; i < 9; ++i) map.linear.m[i] = turn.m[i] * frame.unit_m;
+  if (!frame.bottom_centre) return map;
   model->origin_m = {};
   const ModelBounds box = BoundsOf(*model);
   Vec3 origin = box.Centre();
@@ -67,6 +70,8 @@ void ApplyFrame(const ModelFrame& frame, Model* model) {
   for (Mesh& mesh : model->meshes) {
     for (auto& p : mesh.positions) p = Narrowed(Vec3{p[0], p[1], p[2]} - origin);
   }
+  map.translation_m = -origin;
+  return map;
 }
 
 bool LooksYUp(const Model& model) {

@@ -19,6 +19,12 @@ struct ModelFrame {
   bool bottom_centre = false;
 };
 
+/// Map of a model's positions: linear p + translation.
+struct FrameMap {
+  Mat3 linear;
+  Vec3 translation_m;
+};
+
 /// Axis-aligned bounding box, metres.
 struct ModelBounds {
   Vec3 min_m, max_m;
@@ -31,8 +37,9 @@ struct ModelBounds {
 ModelBounds BoundsOf(const Model& model);
 
 /// Takes a model as read from its file to `frame`. Positions are relative to Model::origin_m, so
-/// that a model in survey coordinates keeps its shape in single precision.
-void ApplyFrame(const ModelFrame& frame, Model* model);
+/// that a model in survey coordinates keeps its shape in single precision. Returns the map that all
+/// positions took, without Model::origin_m.
+FrameMap ApplyFrame(const ModelFrame& frame, Model* model);
 
 /// Returns whether a model that is read as z-up was probably modelled with y up. Either it stands
 /// on y = 0 and is centred on z = 0, or only z divides it into equal halves, as a body is divided

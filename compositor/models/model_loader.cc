@@ -1,7 +1,10 @@
+#include <memory>
 #include <new>
 #include <utility>
+#include <vector>
 
 #include "compositor/models/alpha_cutout.h"
+#include "compositor/models/animation/model_animation.h"
 #include "compositor/models/gltf_pose.h"
 #include "compositor/models/gltf_reader.h"
 #include "compositor/models/mesh_normals.h"
@@ -14,14 +17,35 @@
 namespace pleinair::compositor {
 namespace {
 
+tl::unexpected<Error> NotAnimated(const std::filesystem::path& file) {
+  return InputError(file.string(), "is an OBJ file, which has no animations",
+                    "leave animation out");
+}
+
+tl::unexpected<Error> TooLarge(const std::filesystem::path& file) {
+  return SystemError(file.string(), "not enough memory for this model", "use a simpler one");
+}
+
 Result<Model> ParseByContent(std::string content, const std::filesystem::path& file,
                              const ModelPose& pose) {
   if (LooksLikeGltf(content)) return ParseGltf(std::move(content), file, pose);
-  if (!pose.animation.empty()) {
-    return InputError(file.string(), "is an OBJ file, which has no animations",
-                      "leave animation out");
-  }
+  if (!pose.animation.empty()) return NotAnimated(file);
   return ParseObj(content, file, {ReadWholeFile, ReadTexture});
+}
+
+/// Applies the normals and the opacity of `options`. Returns the sources of the vertices.
+Result<std::vector<VertexSources>> GiveNormals(const ModelOptions& options,
+                                               const std::filesystem::path& file, Model* model) {
+  std::vector<VertexSources> sources = ApplyNormals(options.normals, model);
+  if (model->meshes.empty()) {
+    return InputError(file.string(), "all its triangles are degenerate", "export it again");
+  }
+  for (Material& material : model->materials) {
+    if (options.opaque_glass && material.alpha == Material::Alpha::kBlended) {
+      material.alpha = Material::Alpha::kIgnored;
+    }
+  }
+  return sources;
 }
 
 }  // namespace
@@ -36,15 +60,7 @@ Result<Model> LoadModel(const std::filesystem::path& file, const ModelOptions& o
     PLEINAIR_ASSIGN_OR_RETURN(std::string content, ReadWholeFile(file));
     PLEINAIR_ASSIGN_OR_RETURN(Model model, ParseByContent(std::move(content), file, pose));
     ApplyFrame(options.frame, &model);
-    ApplyNormals(options.normals, &model);
-    if (model.meshes.empty()) {
-      return InputError(file.string(), "all its triangles are degenerate", "export it again");
-    }
-    for (Material& material : model.materials) {
-      if (options.opaque_glass && material.alpha == Material::Alpha::kBlended) {
-        material.alpha = Material::Alpha::kIgnored;
-      }
-    }
+    PLEINAIR_ASSIGN_OR_RETURN(const auto sources, GiveNormals(options, file, &model));
     ApplyAlphaCutout(&model);
     if (model.meshes.empty()) {
       return InputError(file.string(), "nothing of it can be seen: its textures are transparent",
@@ -52,7 +68,26 @@ Result<Model> LoadModel(const std::filesystem::path& file, const ModelOptions& o
     }
     return model;
   } catch (const std::bad_alloc&) {
-    return SystemError(file.string(), "not enough memory for this model", "use a simpler one");
+    return TooLarge(file);
+  }
+}
+
+Result<AnimatedModel> LoadAnimatedModel(const std::filesystem::path& file,
+                                        const ModelOptions& options, const std::string& animation) {
+  try {
+    PLEINAIR_ASSIGN_OR_RETURN(std::string content, ReadWholeFile(file));
+    if (!LooksLikeGltf(content)) return NotAnimated(file);
+    PLEINAIR_ASSIGN_OR_RETURN(MovingGltf moving,
+                              ParseMovingGltf(std::move(content), file, animation));
+    const FrameMap map = ApplyFrame(options.frame, &moving.model);
+    moving.rig->SetFrame({map.linear, map.translation_m});
+    PLEINAIR_ASSIGN_OR_RETURN(std::vector<VertexSources> sources,
+                              GiveNormals(options, file, &moving.model));
+    PLEINAIR_RETURN_IF_ERROR(
+        moving.rig->SetVertices(options.normals, std::move(sources), file.string()));
+    return AnimatedModel{std::move(moving.model), std::move(moving.rig)};
+  } catch (const std::bad_alloc&) {
+    return TooLarge(file);
   }
 }
 

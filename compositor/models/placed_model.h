@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "base/vector.h"
+#include "compositor/models/animation/model_animation.h"
 #include "compositor/models/model.h"
 
 namespace pleinair::compositor {
@@ -13,6 +14,8 @@ struct PlacedModel {
   Mat3 linear;              ///< Rotation and scale, marker from model coordinates.
   Vec3 translation_m;       ///< Position of the model's origin, marker coordinates.
   bool is_phantom = false;  ///< Geometry of a real surface; else a virtual object.
+  /// How a virtual object changes its shape. By default it does not.
+  Playback playback = {};
 };
 
 }  // namespace pleinair::compositor

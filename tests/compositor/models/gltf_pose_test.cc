@@ -8,11 +8,13 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <limits>
 #include <numbers>
 #include <string>
 #include <vector>
 
+#include "compositor/models/animation/model_animation.h"
 #include "compositor/models/model.h"
 #include "tests/compositor/models/model_files_made.h"
 
@@ -38,7 +40,18 @@ struct AnimatedFile {
   std::string node, primitive, extra;
   std::vector<float> more;  ///< 16 floats of an inverse bind matrix, or three morph deltas.
 
-  Result<Model> Load(const ModelPose& pose) const {
+  Result<Model> Load(const ModelPose& pose, const ModelOptions& options = {}) const {
+    const TemporaryFolder folder;
+    return LoadModel(Write(folder), options, pose);
+  }
+
+  Result<AnimatedModel> LoadMoving(const std::string& animation,
+                                   const ModelOptions& options = {}) const {
+    const TemporaryFolder folder;
+    return LoadAnimatedModel(Write(folder), options, animation);
+  }
+
+  std::filesystem::path Write(const TemporaryFolder& folder) const {
     const std::vector<float> positions{0, 0, 0, 1, 0, 0, 0, 2, 0};
     const std::vector<std::uint8_t> joints{0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0};
     const std::vector<float> weights{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
@@ -77,9 +90,8 @@ struct AnimatedFile {
         (more.size() == 9 ? accessor(5, 5126, 3, "VEC3") : accessor(5, 5126, 1, "MAT4")) +
         R"(],"bufferViews":[)" + views + R"(],"buffers":[{"uri":"data.bin","byteLength":)" +
         std::to_string(buffer.size()) + "}]" + extra + "}";
-    const TemporaryFolder folder;
     folder.Write("data.bin", buffer);
-    return LoadModel(folder.Write("model.gltf", json), {}, pose);
+    return folder.Write("model.gltf", json);
   }
 
   /// A corner of the triangle in the file's coordinates.
@@ -181,6 +193,97 @@ TEST(ModelPose, RefusesDamagedAnimations) {
   EXPECT_THAT(unknown.error().Message(), HasSubstr("has no animation \"Run\"; it has Move"));
   EXPECT_TRUE(file.Load({"0", 0.0}));
   EXPECT_FALSE(file.Load({"1", 0.0}));
+}
+
+/// The file loaded at a moment and the shape of its animation then must be the same.
+void ExpectShapesOfMoments(const AnimatedFile& file) {
+  for (const NormalsMode normals : {NormalsMode::kFromFile, NormalsMode::kFlat}) {
+    const ModelOptions options{
+        normals, false, {.file_up = UpAxis::kZ, .placed_up = UpAxis::kY, .unit_m = 0.1}};
+    const auto moving = file.LoadMoving("Move", options);
+    ASSERT_TRUE(moving) << moving.error().Message();
+    EXPECT_EQ(moving->animation->duration_s(), 2.0);
+    EXPECT_TRUE(UnsupportedFeatures(moving->model).empty());
+    for (const double time_s : {-1.0, 0.0, 0.3, 1.7, 2.0, 5.0}) {
+      const auto still = file.Load({"Move", time_s}, options);
+      ASSERT_TRUE(still) << still.error().Message();
+      const std::vector<MeshShape> shapes = moving->animation->At(time_s);
+      ASSERT_EQ(shapes.size(), still->meshes.size());
+      for (std::size_t m = 0; m < shapes.size(); ++m) {
+        ASSERT_EQ(shapes[m].positions.size(), still->meshes[m].positions.size());
+        for (std::size_t v = 0; v < shapes[m].positions.size(); ++v) {
+          ExpectNear(shapes[m].positions[v], still->meshes[m].positions[v]);
+          ExpectNear(shapes[m].normals[v], still->meshes[m].normals[v]);
+          const Vec3 in_box{shapes[m].positions[v][0], shapes[m].positions[v][1],
+                            shapes[m].positions[v][2]};
+          EXPECT_LE(Norm(in_box - moving->animation->bounds().Centre()),
+                    0.5 * Norm(moving->animation->bounds().Size()) + 1e-6);
+        }
+      }
+    }
+  }
+}
+
+TEST(ModelAnimation, HasTheShapeOfTheFileAtEveryMoment) {
+  AnimatedFile file;
+  ExpectShapesOfMoments(file);
+  file.path = "rotation";
+  file.value_type = "VEC4";
+  file.values = {0, 0, 0, 1, 0, kHalf, 0, kHalf};
+  ExpectShapesOfMoments(file);
+  file.node = R"(,"skin":0)";
+  file.extra = R"(,"skins":[{"joints":[1,2]}])";
+  ExpectShapesOfMoments(file);
+  file = {};
+  file.path = "scale";
+  file.values = {1, 1, 1, 2, 1, 3};
+  ExpectShapesOfMoments(file);
+  file = {};
+  file.more = {0, 0, 0, 0, 0, 0, 0, 0, 4};
+  file.primitive = R"(,"targets":[{"POSITION":5}])";
+  file.path = "weights";
+  file.value_type = "SCALAR";
+  file.values = {0, 1};
+  ExpectShapesOfMoments(file);
+}
+
+TEST(ModelAnimation, ListsItselfInItsModel) {
+  const auto model = AnimatedFile{}.Load({});
+  ASSERT_TRUE(model);
+  ASSERT_EQ(model->animations.size(), 1U);
+  EXPECT_EQ(model->animations[0].name, "Move");
+}
+
+TEST(ModelAnimation, RefusesWhatDoesNotMove) {
+  AnimatedFile file;
+  const auto error_of = [&file](const std::string& name) {
+    const auto moving = file.LoadMoving(name);
+    return moving ? "" : moving.error().Message();
+  };
+  EXPECT_THAT(error_of("Run"), HasSubstr("has no animation \"Run\"; it has Move"));
+  file.values = {10, 0, 0, 9e7F, 9e7F, 9e7F};
+  EXPECT_THAT(error_of("Move"), HasSubstr("beyond 1e8 metres"));
+  file.times = {5};
+  file.values = {12, 0, 0};
+  file.value_count = 1;
+  EXPECT_THAT(error_of("Move"), HasSubstr("has no two key frames; leave animation out"));
+  file.times = {0, std::numeric_limits<float>::quiet_NaN()};
+  file.values = {10, 0, 0, 14, 0, 0};
+  file.value_count = 2;
+  EXPECT_THAT(error_of("Move"), HasSubstr("not a finite number"));
+}
+
+TEST(ModelAnimation, PlaysOnceOrAgainAndAgain) {
+  const auto moving = AnimatedFile{}.LoadMoving("Move");
+  ASSERT_TRUE(moving);
+  Playback playback{moving->animation, 0.5, false};
+  EXPECT_DOUBLE_EQ(playback.MomentAt(0.0), 0.5);
+  EXPECT_DOUBLE_EQ(playback.MomentAt(1.0), 1.5);
+  EXPECT_DOUBLE_EQ(playback.MomentAt(9.0), 2.0);
+  EXPECT_DOUBLE_EQ(playback.MomentAt(-9.0), 0.0);
+  playback.loop = true;
+  EXPECT_DOUBLE_EQ(playback.MomentAt(9.0), 1.5);
+  EXPECT_DOUBLE_EQ(playback.MomentAt(-0.75), 1.75);
 }
 
 }  // namespace
