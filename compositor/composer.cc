@@ -6,11 +6,14 @@
 #include <array>
 #include <cstddef>
 #include <glm/glm.hpp>
+#include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "compositor/embedded_shaders.h"
+#include "compositor/light/changing/changing_bodies.h"
 #include "compositor/light/environment_map.h"
 #include "compositor/passes/aerial_fog.h"
 #include "compositor/passes/frame_uniforms.h"
@@ -93,7 +96,14 @@ class GlComposer : public Composer {
   void LetGo() override { context_.ReleaseCurrent(); }
   int samples() const override { return canvas_.targets.samples(); }
   void MoveModel(int placed_model, const Mat3& linear, Vec3 translation_m) override {
-    surfaces_.Move(placed_model, linear, translation_m);
+    if (changing_ && changing_->Has(placed_model)) {
+      changing_->Move(placed_model, linear, translation_m);
+    } else {
+      surfaces_.Move(placed_model, linear, translation_m);
+    }
+  }
+  void SetShape(int placed_model, std::span<const MeshShape> shape) override {
+    if (changing_) changing_->SetShape(placed_model, shape);
   }
   Result<void> SetLight(const std::vector<LitMesh>& lit, const sky::SkyModel& day,
                         const Mat3& marker_from_world, LinearRgb from_below) override;
@@ -144,6 +154,7 @@ class GlComposer : public Composer {
   Passes passes_;
   SceneSurfaces surfaces_;
   SceneShadows shadows_;
+  std::unique_ptr<ChangingBodies> changing_;  // Null if no model changes its shape.
 };
 
 Result<std::unique_ptr<Composer>> GlComposer::Make(const CameraModel& camera,
@@ -161,6 +172,7 @@ Result<std::unique_ptr<Composer>> GlComposer::Make(const CameraModel& camera,
   PLEINAIR_RETURN_IF_ERROR(c.UploadSunlight({}));
   PLEINAIR_ASSIGN_OR_RETURN(c.passes_.ratio, ShadowRatioPass::Create());
   PLEINAIR_ASSIGN_OR_RETURN(c.surfaces_, SceneSurfaces::Create(scene));
+  PLEINAIR_ASSIGN_OR_RETURN(c.changing_, ChangingBodies::Create(scene));
   PLEINAIR_ASSIGN_OR_RETURN(c.passes_.objects,
                             ObjectPass::Create(c.surfaces_.materials().HasDetails()));
   PLEINAIR_RETURN_IF_ERROR(c.SetRenderSize(options));
@@ -246,7 +258,8 @@ Result<void> GlComposer::SetLight(const std::vector<LitMesh>& lit, const sky::Sk
   sky_.level_sun = day.SunNormalIrradiance() * std::max(0.0, day.ToSun().xyz.z);
   sky_.level_sky = day.SkyHorizontalIrradiance();
   sky_.mix = {};
-  PLEINAIR_RETURN_IF_ERROR(surfaces_.SetLit(lit));
+  if (changing_) PLEINAIR_RETURN_IF_ERROR(changing_->SetLight(lit, day, marker_from_world));
+  PLEINAIR_RETURN_IF_ERROR(surfaces_.SetLit(changing_ ? changing_->meshes() : lit));
   if (!surfaces_.materials().HasGloss()) return {};  // No program samples it.
   const EnvironmentMap map = BuildEnvironmentMap(day, marker_from_world, from_below);
   for (int level = 0; level < EnvironmentMap::kLevels; ++level) {
@@ -265,7 +278,7 @@ Result<void> GlComposer::SetLightMix(const std::vector<LitMesh>& lit, const Ligh
   if (mix == sky_.mix) return {};
   PLEINAIR_RETURN_IF_ERROR(context_.MakeCurrent());
   sky_.mix = mix;
-  return surfaces_.SetMix(lit, mix);
+  return surfaces_.SetMix(changing_ ? changing_->meshes() : lit, mix);
 }
 
 void GlComposer::SetSun(const sky::SkyModel& day, const Mat3& marker_from_world) {
@@ -395,6 +408,10 @@ Result<RgbImage> GlComposer::Compose(ImageView<const std::uint8_t> rgb,
   CHECK_EQ(rgb.stride(), static_cast<std::ptrdiff_t>(rgb.width()) * 3);
   PLEINAIR_RETURN_IF_ERROR(context_.MakeCurrent());
   canvas_.picture.SetBackground(rgb);
+  if (changing_ && changing_->Update()) {
+    PLEINAIR_RETURN_IF_ERROR(
+        surfaces_.SetShapes(changing_->meshes(), changing_->first_body(), sky_.mix));
+  }
   const shadows::View view =
       ViewOf(canvas_.camera, camera_from_marker, surfaces_.placement().bounds());
   // A sun below the horizon lights nothing and casts no shadow.

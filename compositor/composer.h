@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "base/camera_model.h"
@@ -15,6 +16,7 @@
 #include "compositor/light/light_mix.h"
 #include "compositor/light/lit_mesh.h"
 #include "compositor/light/sun_transmittance_map.h"
+#include "compositor/models/animation/model_animation.h"
 #include "compositor/models/placed_model.h"
 #include "compositor/picture/camera_look.h"
 #include "sky/sky_model.h"
@@ -42,6 +44,12 @@ class Composer {
   /// translation. The light on it and around it stays the same until SetLight().
   virtual void MoveModel(int placed_model, const Mat3& linear, Vec3 translation_m) = 0;
 
+  /// Changes the shape of a placed model that has a playback, from the next image on: positions and
+  /// normals as ModelAnimation::At() gives them, for the same triangles. Shadows and the bodies'
+  /// light follow at once, the light that they take from surfaces and give to them within some
+  /// images (docs/method/changing-surfaces.md). Ignored for other models.
+  virtual void SetShape(int placed_model, std::span<const MeshShape> shape) = 0;
+
   /// Samples per rendered pixel at edges: 4, or the renderer's maximum if that is lower.
   virtual int samples() const = 0;
 
@@ -49,8 +57,8 @@ class Composer {
   virtual void LetGo() = 0;
 
   /// Sets the light of the next images. `lit` is a LightSolver's result for the same scene and
-  /// daylight. `from_below` is its RadianceFromBelow(), which glossy surfaces mirror below the
-  /// horizon.
+  /// daylight, in which models with a playback have no part. `from_below` is its
+  /// RadianceFromBelow(), which glossy surfaces mirror below the horizon.
   virtual Result<void> SetLight(const std::vector<LitMesh>& lit, const sky::SkyModel& daylight,
                                 const Mat3& marker_from_world, LinearRgb from_below) = 0;
 

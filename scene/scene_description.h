@@ -77,11 +77,14 @@ struct ModelReference {
   /// Metres of one unit of the file (scene/length_units.h). Unset: the file is in metres.
   std::optional<double> unit_m;
   ModelOrigin origin = ModelOrigin::kFile;
-  std::string animation;           ///< Name or number in a glTF file; empty: its pose without one.
-  double animation_start_s = 0.0;  ///< The moment of the animation that is shown.
-  Vec3 translation_m;              ///< Of the model's origin, marker coordinates.
-  Vec3 rotation_deg;               ///< About the marker's x, then y, then z axis.
-  double scale = 1.0;              ///< Enlarges the model about its origin.
+  std::string animation;  ///< Name or number in a glTF file; empty: its pose without one.
+  /// Moment of the animation at the scene's time, from which an object plays it. A phantom keeps
+  /// it.
+  double animation_start_s = 0.0;
+  bool loop = false;   ///< Begins again at the end; else the last shape remains.
+  Vec3 translation_m;  ///< Of the model's origin, marker coordinates.
+  Vec3 rotation_deg;   ///< About the marker's x, then y, then z axis.
+  double scale = 1.0;  ///< Enlarges the model about its origin.
 };
 
 /// The user's description of the scene: everything that the compositor may use. Holds no ground

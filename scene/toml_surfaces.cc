@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "scene/described_surface.h"
@@ -38,10 +39,34 @@ Result<void> ReadFrame(const TomlTable& table, ModelReference* model) {
   return {};
 }
 
+Result<void> ReadAnimation(const TomlTable& table, ModelReference* model) {
+  PLEINAIR_ASSIGN_OR_RETURN(const std::optional<std::string> animation, table.Text("animation"));
+  PLEINAIR_ASSIGN_OR_RETURN(const std::optional<double> start_s, table.Number("animation_start_s"));
+  PLEINAIR_ASSIGN_OR_RETURN(const std::optional<bool> loop, table.Flag("loop"));
+  if (animation && animation->empty()) return table.Fail("animation", "names none");
+  for (const auto& [key, is_given] :
+       {std::pair{"animation_start_s", start_s.has_value()}, std::pair{"loop", loop.has_value()}}) {
+    if (is_given && !animation) {
+      return table.Fail(key, "needs an animation", "add animation = \"NAME\"");
+    }
+  }
+  if (start_s && *start_s < 0.0) {
+    return table.Fail("animation_start_s", "is before the animation's beginning",
+                      "give 0 or more seconds");
+  }
+  model->animation = animation.value_or("");
+  model->animation_start_s = start_s.value_or(0.0);
+  model->loop = loop.value_or(false);
+  return {};
+}
+
 Result<ModelReference> ReadModel(const TomlTable& table, const TomlTable& scene, const char* key) {
   PLEINAIR_RETURN_IF_ERROR(
       table.AllowOnly({"file", "shading", "up", "unit", "origin", "animation", "animation_start_s",
-                       "translation_m", "rotation_deg", "scale"}));
+                       "loop", "translation_m", "rotation_deg", "scale"}));
+  if (key == std::string_view("phantom") && table.Find("loop") != nullptr) {
+    return table.Fail("loop", "is for objects", "a phantom stands still: leave loop out");
+  }
   ModelReference model;
   PLEINAIR_ASSIGN_OR_RETURN(const std::optional<std::string> file, table.Text("file"));
   if (!file || file->empty()) return scene.Fail(key, "has no file", "add file = \"name.obj\"");
@@ -57,14 +82,7 @@ Result<ModelReference> ReadModel(const TomlTable& table, const TomlTable& scene,
     }
   }
   PLEINAIR_RETURN_IF_ERROR(ReadFrame(table, &model));
-  PLEINAIR_ASSIGN_OR_RETURN(const std::optional<std::string> animation, table.Text("animation"));
-  PLEINAIR_ASSIGN_OR_RETURN(const std::optional<double> start_s, table.Number("animation_start_s"));
-  if (animation && animation->empty()) return table.Fail("animation", "names none");
-  if (start_s && !animation) {
-    return table.Fail("animation_start_s", "needs an animation", "add animation = \"NAME\"");
-  }
-  model.animation = animation.value_or("");
-  model.animation_start_s = start_s.value_or(0.0);
+  PLEINAIR_RETURN_IF_ERROR(ReadAnimation(table, &model));
   PLEINAIR_RETURN_IF_ERROR(ReadPlacement(table, &model));
   PLEINAIR_ASSIGN_OR_RETURN(const std::optional<double> scale, table.Number("scale"));
   model.scale = scale.value_or(1.0);

@@ -109,6 +109,7 @@ std::set<std::int64_t> FramesOf(const std::vector<Observation>& path,
 void AddTimes(const ComposedFrame& composed, StageTimes* times) {
   if (!composed.light) return;
   if (composed.times.light_ms > 1.0) times->Add("light", composed.times.light_ms);
+  if (composed.times.animation_ms > 0.1) times->Add("animate", composed.times.animation_ms);
   times->Add("estimate exposure", composed.times.meter_ms);
   times->Add("compose", composed.times.compose_ms);
 }

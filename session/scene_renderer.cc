@@ -8,6 +8,7 @@
 
 #include "compositor/light/light_solver.h"
 #include "compositor/light/scaled_sky.h"
+#include "compositor/models/animation/model_animation.h"
 #include "compositor/models/gltf_pose.h"
 #include "compositor/photometry/sky_fit.h"
 #include "compositor/surfaces/polygon_model.h"
@@ -16,6 +17,7 @@
 #include "scene/marker_reflectance.h"
 #include "scene/sun_over_place.h"
 #include "session/leaf_materials.h"
+#include "session/scene_animation.h"
 
 namespace pleinair::session {
 namespace {
@@ -42,27 +44,38 @@ compositor::NormalsMode NormalsOf(scene::Shading shading) {
   return compositor::NormalsMode::kFromFile;
 }
 
-Result<compositor::Model> ModelOf(const scene::ModelReference& reference, bool is_phantom,
-                                  const scene::MarkerDescription& marker) {
-  if (!reference.surface) {
-    const compositor::ModelFrame frame{reference.up, marker.upright ? UpAxis::kY : UpAxis::kZ,
-                                       reference.unit_m.value_or(1.0),
-                                       reference.origin == scene::ModelOrigin::kBottomCentre};
-    return compositor::LoadModel(reference.file, {NormalsOf(reference.shading), is_phantom, frame},
-                                 {reference.animation, reference.animation_start_s});
+/// Loads the model of a reference, at rest, or with its animation if it plays one.
+Result<compositor::AnimatedModel> ModelOf(const scene::ModelReference& reference, bool is_phantom,
+                                          const scene::MarkerDescription& marker) {
+  if (reference.surface) {
+    const scene::DescribedSurface& surface = *reference.surface;
+    return compositor::AnimatedModel{
+        compositor::PolygonModel(surface.name, surface.polygons, surface.reflectance), nullptr};
   }
-  const scene::DescribedSurface& surface = *reference.surface;
-  return compositor::PolygonModel(surface.name, surface.polygons, surface.reflectance);
+  const compositor::ModelFrame frame{reference.up, marker.upright ? UpAxis::kY : UpAxis::kZ,
+                                     reference.unit_m.value_or(1.0),
+                                     reference.origin == scene::ModelOrigin::kBottomCentre};
+  const compositor::ModelOptions options{NormalsOf(reference.shading), is_phantom, frame};
+  if (!reference.animation.empty() && !is_phantom) {
+    return compositor::LoadAnimatedModel(reference.file, options, reference.animation);
+  }
+  PLEINAIR_ASSIGN_OR_RETURN(
+      compositor::Model model,
+      compositor::LoadModel(reference.file, options,
+                            {reference.animation, reference.animation_start_s}));
+  return compositor::AnimatedModel{std::move(model), nullptr};
 }
 
 }  // namespace
 
 Result<compositor::PlacedModel> PlaceModel(const scene::ModelReference& reference, bool is_phantom,
                                            const scene::MarkerDescription& marker) {
-  PLEINAIR_ASSIGN_OR_RETURN(compositor::Model model, ModelOf(reference, is_phantom, marker));
+  PLEINAIR_ASSIGN_OR_RETURN(compositor::AnimatedModel loaded,
+                            ModelOf(reference, is_phantom, marker));
   compositor::PlacedModel placed;
-  placed.model = std::make_shared<const compositor::Model>(std::move(model));
+  placed.model = std::make_shared<const compositor::Model>(std::move(loaded.model));
   placed.is_phantom = is_phantom;
+  placed.playback = {std::move(loaded.animation), reference.animation_start_s, reference.loop};
   MoveTo({reference.translation_m, reference.rotation_deg, reference.scale}, &placed);
   return placed;
 }
@@ -292,6 +305,10 @@ Result<RgbImage> SceneRenderer::Render(ImageView<const std::uint8_t> rgb,
   PLEINAIR_RETURN_IF_ERROR(UpdateLight(time.PlusSeconds(edited_.later_s)));
   PLEINAIR_RETURN_IF_ERROR(composer_->SetLightMix(light_->in_use()->meshes, followed.mix));
   times_.light_ms = MillisecondsSince(start);
+  start = Clock::now();
+  // At the time of the frame, whatever hour an edit lights the scene with.
+  PlayAnimations(placed_, scene_.place_time.start, time, composer_.get());
+  times_.animation_ms = MillisecondsSince(start);
   start = Clock::now();
   std::optional<Transform<Camera, Marker>> marker;
   if (shows_marker) marker = camera_from_marker;

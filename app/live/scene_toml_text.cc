@@ -81,6 +81,7 @@ void AddModel(const char* table, const scene::ModelReference& model, const fs::p
   if (!model.animation.empty()) {
     *text += fmt::format("animation = {}\nanimation_start_s = {}\n", Quoted(model.animation),
                          model.animation_start_s);
+    if (model.loop) *text += "loop = true\n";
   }
   *text += fmt::format("translation_m = {}\nrotation_deg = {}\nscale = {}\n",
                        Vector(model.translation_m), Vector(model.rotation_deg), model.scale);

@@ -48,8 +48,7 @@ std::vector<Vec3> ObjectMiddles(const PatchScene& scene) {
                   std::max<double>(box.high.z, z)};
     }
   }
-  std::vector<Vec3> middles;
-  middles.reserve(boxes.size());
+  std::vector<Vec3> middles = scene.changing_middles;
   for (const auto& [model, box] : boxes) middles.push_back((box.low + box.high) * 0.5);
   return middles;
 }

@@ -6,13 +6,12 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/srgb.h"
 #include "compositor/light/foliage.h"
 #include "compositor/light/gather_origin.h"
 #include "compositor/light/light_refinement.h"
 #include "compositor/light/light_solver_options.h"
+#include "compositor/light/reflectance.h"
 #include "compositor/light/tessellation.h"
-#include "compositor/models/leaf_material.h"
 #include "compositor/models/model.h"
 #include "compositor/models/placed_model.h"
 
@@ -23,85 +22,6 @@ namespace {
 constexpr std::size_t kMaxFaces = std::size_t{1} << 26;
 
 Vec3 ToVec3(const std::array<float, 3>& a) { return {a[0], a[1], a[2]}; }
-
-/// Coverage of a surface where its texture has this alpha.
-double ShareThere(std::uint8_t alpha, const Material& material) {
-  if (material.alpha == Material::Alpha::kCutout) {
-    return material.opacity * static_cast<float>(alpha) >= 255.0F * material.alpha_cutoff ? 1.0
-                                                                                          : 0.0;
-  }
-  return material.alpha == Material::Alpha::kBlended ? alpha / 255.0 : 1.0;
-}
-
-/// Linear mean of a texture, sampled on a grid of at most 256 × 256 pixels. Alpha cut-outs have no
-/// weight; glass is weighted by its alpha.
-std::array<float, 3> MeanColor(const Image<std::uint8_t>& texture, const Material& material) {
-  const auto& linear = LinearFromSrgb8();
-  const int step_x = std::max(1, texture.width() / 256);
-  const int step_y = std::max(1, texture.height() / 256);
-  std::array<double, 3> sum{};
-  double count = 0.0;
-  for (int y = step_y / 2; y < texture.height(); y += step_y) {
-    for (int x = step_x / 2; x < texture.width(); x += step_x) {
-      const double share = texture.channels() == 4 ? ShareThere(texture(x, y, 3), material) : 1.0;
-      for (int c = 0; c < 3; ++c) {
-        sum[c] += share * linear[texture(x, y, texture.channels() > 2 ? c : 0)];
-      }
-      count += share;
-    }
-  }
-  std::array<float, 3> mean{};
-  for (int c = 0; c < 3 && count > 0.0; ++c) mean[c] = static_cast<float>(sum[c] / count);
-  return mean;
-}
-
-/// Multiplies a color by the mean of a texture, if the model has it.
-std::array<float, 3> TimesTexture(std::array<float, 3> color, const Model& model, int texture,
-                                  const Material& material) {
-  if (texture >= 0 && static_cast<std::size_t>(texture) < model.textures.size() &&
-      !model.textures[texture].empty()) {
-    const std::array<float, 3> mean = MeanColor(model.textures[texture], material);
-    for (int c = 0; c < 3; ++c) color[c] *= mean[c];
-  }
-  return color;
-}
-
-/// A metal reflects as much light as a matt surface of its color, though in other directions.
-/// Without this light, a polished object would blacken the ground below it.
-std::array<float, 3> ReflectanceOf(const Model& model, int material_index) {
-  if (material_index < 0 || static_cast<std::size_t>(material_index) >= model.materials.size()) {
-    return {Material{}.base_color};
-  }
-  const Material& material = model.materials[material_index];
-  std::array<float, 3> albedo =
-      TimesTexture(material.base_color, model, material.base_color_texture, material);
-  if (material.detail.leaf) {
-    const float share = SurfaceShareOf(*material.detail.leaf);
-    for (float& value : albedo) value = share + (1.0F - share) * value;
-  }
-  // With an albedo of 1 or more, the light would never decay.
-  for (float& value : albedo) value = std::clamp(value, 0.0F, 0.98F);
-  return albedo;
-}
-
-/// Transmittance of a virtual object's surface beside that reflectance.
-std::array<float, 3> TransmittanceOf(const PlacedModel& placed, int material_index,
-                                     const std::array<float, 3>& albedo) {
-  const Model& model = *placed.model;
-  if (placed.is_phantom || material_index < 0 ||
-      static_cast<std::size_t>(material_index) >= model.materials.size()) {
-    return {};
-  }
-  const Material& material = model.materials[material_index];
-  if (!material.detail.Transmits()) return {};
-  std::array<float, 3> transmittance = TimesTexture(material.detail.transmission.color, model,
-                                                    material.detail.transmission.texture, material);
-  const float inside = material.detail.leaf ? 1.0F - SurfaceShareOf(*material.detail.leaf) : 1.0F;
-  for (int c = 0; c < 3; ++c) {
-    transmittance[c] = std::clamp(inside * transmittance[c], 0.0F, 0.98F - albedo[c]);
-  }
-  return transmittance;
-}
 
 /// Mean of the vertices' colors; white without any.
 std::array<float, 3> MeanVertexColor(const std::vector<VertexDetail>& details) {
@@ -242,6 +162,26 @@ void AddFaces(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& indices
   }
 }
 
+/// Two corners of the box around all shapes of an object that changes, in place of its surfaces.
+SurfaceMesh BoxAroundShapes(const PlacedModel& placed) {
+  const ModelBounds bounds = placed.playback.animation->bounds();
+  Vec3 low{1e30, 1e30, 1e30}, high{-1e30, -1e30, -1e30};
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 at = placed.linear * Vec3{(corner & 1) != 0 ? bounds.min_m.x : bounds.max_m.x,
+                                         (corner & 2) != 0 ? bounds.min_m.y : bounds.max_m.y,
+                                         (corner & 4) != 0 ? bounds.min_m.z : bounds.max_m.z} +
+                    placed.translation_m;
+    low = {std::min(low.x, at.x), std::min(low.y, at.y), std::min(low.z, at.z)};
+    high = {std::max(high.x, at.x), std::max(high.y, at.y), std::max(high.z, at.z)};
+  }
+  SurfaceMesh box;
+  for (const Vec3 at : {low, high}) {
+    box.positions.push_back(
+        {static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z)});
+  }
+  return box;
+}
+
 }  // namespace
 
 std::vector<std::array<float, 3>> PatchScene::VertexLight(
@@ -253,9 +193,13 @@ std::vector<std::array<float, 3>> PatchScene::VertexLight(
 
 Result<PatchScene> PatchScene::Create(const std::vector<PlacedModel>& models,
                                       const LightSolverOptions& options) {
-  std::vector<SurfaceMesh> surfaces;
+  std::vector<SurfaceMesh> surfaces, boxes;
   for (std::size_t i = 0; i < models.size(); ++i) {
     PLEINAIR_RETURN_IF_ERROR(CheckModel(models[i]));
+    if (models[i].playback.animation) {
+      boxes.push_back(BoxAroundShapes(models[i]));
+      continue;
+    }
     for (SurfaceMesh& surface : OrientedSurfaces(models[i], static_cast<int>(i))) {
       // The render-only geometry of phantoms is never drawn.
       if (surface.is_phantom && surface.role == MeshRole::kRenderOnly) continue;
@@ -271,7 +215,8 @@ Result<PatchScene> PatchScene::Create(const std::vector<PlacedModel>& models,
   }
   if (surfaces.empty()) {
     return InputError(LargestModel(models), "has no surface to light",
-                      "give at least one phantom or object with triangles");
+                      boxes.empty() ? "give at least one phantom or object with triangles"
+                                    : "add [ground] or a phantom below the animation");
   }
   TessellationOptions tessellation;
   tessellation.near_edge_m = options.near_edge_m;
@@ -280,8 +225,13 @@ Result<PatchScene> PatchScene::Create(const std::vector<PlacedModel>& models,
   for (const SurfaceMesh& surface : surfaces) vertices += surface.positions.size();
   // Surfaces that are already fine must not keep others from being subdivided.
   if (vertices > options.max_patches) tessellation.max_vertices += vertices;
+  surfaces.insert(surfaces.end(), boxes.begin(), boxes.end());
   Tessellate(tessellation, &surfaces);
+  surfaces.resize(surfaces.size() - boxes.size());
   PatchScene scene;
+  for (const SurfaceMesh& box : boxes) {
+    scene.changing_middles.push_back((ToVec3(box.positions[0]) + ToVec3(box.positions[1])) * 0.5);
+  }
   std::vector<RayMesh> ray_meshes, leaf_meshes;
   std::vector<SurfaceOfRays> surfaces_of_rays;
   for (std::uint32_t i = 0; i < surfaces.size(); ++i) {

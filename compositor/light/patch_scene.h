@@ -22,6 +22,9 @@ struct LightSolverOptions;
 /// that rays hit. An open surface has two mesh sides, one per side; a closed body has one. Each
 /// vertex of a tessellated surface is a patch. If there are too many vertices, a patch is a group
 /// of them (surface_patches.h).
+///
+/// Objects that change their shape (PlacedModel::playback) neither gather nor occlude light here.
+/// Surfaces near them are as finely divided as near still ones.
 struct PatchScene {
   struct MeshSide {
     SurfaceMesh mesh;
@@ -54,7 +57,8 @@ struct PatchScene {
   std::vector<PatchSample> surface_samples;        ///< Grouped by patch.
   std::vector<std::uint32_t> surface_sample_ends;  ///< One past each patch's last surface sample.
   std::unique_ptr<RayScene> rays;
-  std::unique_ptr<RayScene> foliage;  ///< Phantoms' foliage; occludes views; may be null.
+  std::vector<Vec3> changing_middles;  ///< Of the objects that change their shape.
+  std::unique_ptr<RayScene> foliage;   ///< Phantoms' foliage; occludes views; may be null.
 
   bool Transmits(const Face& face) const {
     return mesh_sides[face.mesh_side].transmittance != std::array<float, 3>{};

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,12 @@ class RayScene {
   static Result<std::unique_ptr<RayScene>> Create(const std::vector<RayMesh>& meshes,
                                                   const std::string& where);
   virtual ~RayScene() = default;
+
+  /// Moves the vertices of all meshes: one list per mesh of Create(), as long as before. The order
+  /// of the search stays, so that this is cheap, but queries are slower after large changes. Not
+  /// while others query.
+  virtual void SetPositions(
+      std::span<const std::vector<std::array<float, 3>>* const> positions) = 0;
 
   /// Finds the nearest hit from `origin` along the unit vector `direction`. Returns false if there
   /// is none.

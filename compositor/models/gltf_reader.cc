@@ -99,6 +99,11 @@ class GltfReader {
     std::vector<GltfPlacement> placements;  ///< By node; empty if there are no skins.
   };
 
+  /// Read so far.
+  struct Counts {
+    std::size_t vertices = 0, triangles = 0;
+  };
+
   /// Shape of a node's mesh.
   struct Shape {
     const std::vector<float>& weights;  ///< Of its morph targets.
@@ -224,8 +229,8 @@ class GltfReader {
     Mesh mesh;
     mesh.name = name;
     PLEINAIR_ASSIGN_OR_RETURN(mesh.positions, ReadGltfFloats<3>(gltf_, position->second, where_));
-    vertex_count_ += mesh.positions.size();
-    if (vertex_count_ > kMaxVertices) {
+    counts_.vertices += mesh.positions.size();
+    if (counts_.vertices > kMaxVertices) {
       return GltfError(where_, "has more than 20 million vertices");
     }
     if (primitive.material >= 0 && !IsGltfIndex(primitive.material, gltf_.materials.size())) {
@@ -312,8 +317,8 @@ class GltfReader {
                                      std::to_string(mesh->positions.size()));
       }
     }
-    triangle_count_ += order.size();
-    if (triangle_count_ > kMaxTriangles) {
+    counts_.triangles += order.size();
+    if (counts_.triangles > kMaxTriangles) {
       return GltfError(where_, "has more than 40 million triangles");
     }
     if (mode == TINYGLTF_MODE_TRIANGLES) {
@@ -369,8 +374,7 @@ class GltfReader {
   Posed posed_;
   std::vector<GltfPart> parts_;  ///< By mesh of the model.
   bool has_vertex_ = false;
-  std::size_t vertex_count_ = 0;
-  std::size_t triangle_count_ = 0;
+  Counts counts_;
 };
 
 }  // namespace

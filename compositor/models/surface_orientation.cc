@@ -6,6 +6,7 @@
 #include <numeric>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 
 #include "compositor/models/model.h"
 #include "compositor/models/placed_model.h"
@@ -177,8 +178,9 @@ PlacedVertices Place(const Mesh& mesh, const PlacedModel& placed) {
 /// Collects one mesh's triangles of one kind into a surface.
 class SurfaceBuilder {
  public:
-  SurfaceBuilder(const Mesh& mesh, const PlacedVertices& vertices)
-      : mesh_(mesh), vertices_(vertices) {}
+  /// `keeps_vertices`: as TracedSurfaces().
+  SurfaceBuilder(const Mesh& mesh, const PlacedVertices& vertices, bool keeps_vertices)
+      : mesh_(mesh), vertices_(vertices), keeps_vertices_(keeps_vertices) {}
 
   void Add(const Triangle& triangle) {
     const Vec3 face = Normalized(triangle.flip ? -triangle.area_normal : triangle.area_normal);
@@ -193,6 +195,7 @@ class SurfaceBuilder {
   }
 
   SurfaceMesh surface;
+  std::vector<std::uint32_t> sources;  ///< Vertices of the mesh, one per vertex of the surface.
 
  private:
   std::uint32_t Vertex(std::uint32_t corner, const std::array<float, 3>& normal) {
@@ -202,15 +205,24 @@ class SurfaceBuilder {
     const std::array<float, 8> key{position[0], position[1], position[2], normal[0],
                                    normal[1],   normal[2],   uv[0],       uv[1]};
     const bool has_detail = !mesh_.details.empty();
-    const std::uint32_t id =
-        has_detail ? InsertDetailed(key, mesh_.details[corner]) : welder_.Insert(key);
+    const std::uint32_t id = keeps_vertices_ ? InsertSource(key, corner)
+                             : has_detail    ? InsertDetailed(key, mesh_.details[corner])
+                                             : welder_.Insert(key);
     if (id == surface.positions.size()) {
+      sources.push_back(corner);
       if (has_detail) surface.details.push_back(mesh_.details[corner]);
       surface.positions.push_back(position);
       surface.normals.push_back(normal);
       if (has_uv) surface.uvs.push_back(uv);
     }
     return id;
+  }
+
+  /// Corners of one vertex have equal positions and coordinates; their normals may be turned.
+  std::uint32_t InsertSource(std::array<float, 8> key, std::uint32_t corner) {
+    key[6] = static_cast<float>(corner & 0xFFFFU);
+    key[7] = static_cast<float>(corner >> 16);
+    return welder_.Insert(key);
   }
 
   std::uint32_t InsertDetailed(const std::array<float, 8>& key, const VertexDetail& detail) {
@@ -222,6 +234,7 @@ class SurfaceBuilder {
 
   const Mesh& mesh_;
   const PlacedVertices& vertices_;
+  bool keeps_vertices_;
   Welder<8> welder_;
   Welder<14> detailed_welder_;  // For meshes with vertex details, in place of the other.
 };
@@ -285,16 +298,15 @@ std::vector<bool> Orient(const std::vector<PlacedVertices>& vertices,
   return closed;
 }
 
-}  // namespace
-
-std::vector<SurfaceMesh> OrientedSurfaces(const PlacedModel& placed, int placed_index) {
+std::vector<TracedSurface> MakeSurfaces(const PlacedModel& placed, int placed_index,
+                                        bool keeps_vertices) {
   const Model& model = *placed.model;
   std::vector<PlacedVertices> vertices;
   for (const Mesh& mesh : model.meshes) vertices.push_back(Place(mesh, placed));
-  std::vector<SurfaceMesh> surfaces;
+  std::vector<TracedSurface> surfaces;
   std::vector<std::vector<SurfaceBuilder>> builders;
   for (std::size_t m = 0; m < model.meshes.size(); ++m) {
-    builders.emplace_back(2, SurfaceBuilder(model.meshes[m], vertices[m]));
+    builders.emplace_back(2, SurfaceBuilder(model.meshes[m], vertices[m], keeps_vertices));
   }
   for (const bool drawn_alone : {false, true}) {
     std::vector<Triangle> triangles = CollectTriangles(model, vertices, drawn_alone);
@@ -313,10 +325,24 @@ std::vector<SurfaceMesh> OrientedSurfaces(const PlacedModel& placed, int placed_
       surface.material = model.meshes[m].material;
       surface.role = model.meshes[m].role;
       surface.closed = kind == 1;
-      surfaces.push_back(std::move(surface));
+      surfaces.push_back({std::move(surface), m, std::move(builders[m][kind].sources)});
     }
   }
   return surfaces;
+}
+
+}  // namespace
+
+std::vector<SurfaceMesh> OrientedSurfaces(const PlacedModel& placed, int placed_index) {
+  std::vector<SurfaceMesh> surfaces;
+  for (TracedSurface& traced : MakeSurfaces(placed, placed_index, false)) {
+    surfaces.push_back(std::move(traced.surface));
+  }
+  return surfaces;
+}
+
+std::vector<TracedSurface> TracedSurfaces(const PlacedModel& placed, int placed_index) {
+  return MakeSurfaces(placed, placed_index, true);
 }
 
 }  // namespace pleinair::compositor

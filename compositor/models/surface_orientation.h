@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -39,5 +40,16 @@ struct PlacedModel;
 /// several meshes. Render-only meshes with holes (MeshRole::kRenderOnly) are never closed bodies,
 /// because the holes show their inside.
 std::vector<SurfaceMesh> OrientedSurfaces(const PlacedModel& placed, int placed_index);
+
+/// A surface whose vertices are those of one mesh.
+struct TracedSurface {
+  SurfaceMesh surface;
+  std::size_t mesh = 0;                 ///< Index into the model's meshes.
+  std::vector<std::uint32_t> vertices;  ///< Of that mesh, one per vertex of the surface.
+};
+
+/// As OrientedSurfaces(), but only corners of one vertex become one. Others may part when the model
+/// changes its shape.
+std::vector<TracedSurface> TracedSurfaces(const PlacedModel& placed, int placed_index);
 
 }  // namespace pleinair::compositor

@@ -29,9 +29,16 @@ void DrawReduction::AddPhantom(const LitMesh& phantom) { phantoms_.emplace_back(
 
 void DrawReduction::AddObject(const LitMesh& object) {
   objects_.emplace_back(object);
-  auto& positions = object_positions_.emplace_back();
-  positions.reserve(object.positions.size());
-  for (const auto& [x, y, z] : object.positions) positions.emplace_back(x, y, z);
+  object_positions_.emplace_back();
+  SetShape(objects_.size() - 1, object);
+}
+
+void DrawReduction::SetShape(std::size_t object, const LitMesh& mesh) {
+  objects_[object].SetNormals(mesh);
+  auto& positions = object_positions_[object];
+  positions.clear();
+  positions.reserve(mesh.positions.size());
+  for (const auto& [x, y, z] : mesh.positions) positions.emplace_back(x, y, z);
 }
 
 SunFootprint DrawReduction::FootprintOf(const SunWindow& window,

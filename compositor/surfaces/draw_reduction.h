@@ -42,6 +42,8 @@ class DrawReduction {
   void SetLight(std::size_t phantom, const LitMesh& mesh, const LightMix& mix = {}) {
     phantoms_[phantom].SetLight(mesh, mix);
   }
+  /// Sets another shape for the same triangles. `object`: index in the order of addition.
+  void SetShape(std::size_t object, const LitMesh& mesh);
   /// Forces the next SortPhantoms() after light changed or objects moved, whatever the sun.
   void Invalidate() { sorted_for_.reset(); }
 

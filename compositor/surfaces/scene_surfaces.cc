@@ -115,6 +115,23 @@ void SceneSurfaces::Move(int placed_model, const Mat3& linear, Vec3 translation_
   reduction_.Invalidate();
 }
 
+Result<void> SceneSurfaces::SetShapes(const std::vector<LitMesh>& lit, std::size_t first,
+                                      const LightMix& mix) {
+  std::size_t object = 0;
+  for (std::size_t i = 0; i < surfaces_.size(); ++i) {
+    const bool is_drawn = surfaces_[i].IsDrawnObject();
+    if (i >= first) {
+      surfaces_[i].SetVertices(lit[i]);
+      placement_.SetShape(i, lit[i]);
+      if (is_drawn) reduction_.SetShape(object, lit[i]);
+    }
+    if (is_drawn) ++object;
+  }
+  placement_.Refresh(surfaces_);
+  objects_sorted_ = false;
+  return SetMix(lit, mix);
+}
+
 Result<void> SceneSurfaces::SortPhantoms(const SunOnPhantoms& sun) {
   if (reduction_.AreSortedFor(sun)) return {};
   std::vector<glm::mat4> objects_moved;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <vector>
@@ -32,6 +33,9 @@ class SceneSurfaces {
   /// Sets the colors of sun and sky, by which leaves change theirs.
   void SetLightColors(LinearRgb sun, LinearRgb sky);
   void Move(int placed_model, const Mat3& linear, Vec3 translation_m);
+  /// Gives the surfaces from `first` on the shape, and all the light, of `lit`, whose triangles are
+  /// those of SetLit(). Errors as SetMix().
+  Result<void> SetShapes(const std::vector<LitMesh>& lit, std::size_t first, const LightMix& mix);
 
   /// As Composer::SetOptions() for ComposerOptions::reductions.
   void Use(const DrawReductions& reductions) { reduction_.Use(reductions); }

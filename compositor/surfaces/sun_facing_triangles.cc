@@ -10,8 +10,14 @@ SunFacingTriangles::SunFacingTriangles(const LitMesh& object)
     : is_translucent_(object.IsTranslucent()),
       indices_(object.indices),
       facing_end_(static_cast<int>(object.indices.size())) {
+  SetNormals(object);
+}
+
+void SunFacingTriangles::SetNormals(const LitMesh& object) {
+  normals_.clear();
   normals_.reserve(object.normals.size());
   for (const auto& [x, y, z] : object.normals) normals_.emplace_back(x, y, z);
+  sorted_for_.reset();
 }
 
 bool SunFacingTriangles::Sort(const glm::vec3& to_sun) {

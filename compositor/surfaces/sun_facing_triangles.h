@@ -16,6 +16,8 @@ class SunFacingTriangles {
  public:
   explicit SunFacingTriangles(const LitMesh& object);
 
+  /// Turns the triangles; the next Sort() sorts.
+  void SetNormals(const LitMesh& object);
   /// Sorts again if the sun has moved by more than kMargin allows. Returns whether it sorted.
   /// `to_sun`: unit, in the frame of the object's mesh; zero without a sun, which no triangle
   /// faces.

@@ -14,14 +14,19 @@ struct Vertex {
   std::array<float, 2> uv;
 };
 
-}  // namespace
-
-Result<SurfaceBuffers> SurfaceBuffers::Create(const LitMesh& mesh) {
+std::vector<Vertex> VerticesOf(const LitMesh& mesh) {
   std::vector<Vertex> vertices(mesh.positions.size());
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     vertices[i].position = mesh.positions[i];
     if (!mesh.texturing.uvs.empty()) vertices[i].uv = mesh.texturing.uvs[i];
   }
+  return vertices;
+}
+
+}  // namespace
+
+Result<SurfaceBuffers> SurfaceBuffers::Create(const LitMesh& mesh) {
+  const std::vector<Vertex> vertices = VerticesOf(mesh);
   SurfaceBuffers surface;
   surface.is_phantom_ = mesh.is_phantom;
   surface.placed_model_ = mesh.placed_model;
@@ -47,6 +52,11 @@ Result<SurfaceBuffers> SurfaceBuffers::Create(const LitMesh& mesh) {
     array.SetFloatAttribute(3, 4, surface.details_, kDetailStride, offsetof(VertexDetail, color));
   }
   return surface;
+}
+
+void SurfaceBuffers::SetVertices(const LitMesh& mesh) {
+  const std::vector<Vertex> vertices = VerticesOf(mesh);
+  vertices_.Update(vertices.data(), vertices.size() * sizeof(Vertex));
 }
 
 void SurfaceBuffers::SetIndices(std::span<const std::uint32_t> indices) {

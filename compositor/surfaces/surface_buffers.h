@@ -21,6 +21,8 @@ class SurfaceBuffers {
  public:
   static Result<SurfaceBuffers> Create(const LitMesh& mesh);
 
+  /// Moves the vertices to those of a mesh with as many.
+  void SetVertices(const LitMesh& mesh);
   /// Replaces the indices by as many others.
   void SetIndices(std::span<const std::uint32_t> indices);
 

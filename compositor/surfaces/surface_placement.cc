@@ -6,12 +6,19 @@ void SurfacePlacement::Clear() {
   casters_.clear();
   phantom_casters_.clear();
   lit_bounds_.clear();
+  revisions_.clear();
   ++revision_;
 }
 
 void SurfacePlacement::Add(const LitMesh& mesh) {
   lit_bounds_.emplace_back();
+  revisions_.push_back(revision_);
   for (const auto& p : mesh.positions) lit_bounds_.back().Include({p[0], p[1], p[2]});
+}
+
+void SurfacePlacement::SetShape(std::size_t surface, const LitMesh& mesh) {
+  for (const auto& p : mesh.positions) lit_bounds_[surface].Include({p[0], p[1], p[2]});
+  revisions_[surface] = ++revision_;
 }
 
 void SurfacePlacement::Reset(std::size_t models, std::span<const SurfaceBuffers> surfaces) {
@@ -39,7 +46,7 @@ void SurfacePlacement::Place(std::span<const SurfaceBuffers> surfaces) {
     shadows::ShadowCaster caster;
     caster.vertices = &surface.vertex_array();
     caster.index_count = surface.index_count();
-    caster.revision = revision_;
+    caster.revision = revisions_[i];
     caster.marker_from_model = MovedBy(surface.placed_model());
     const shadows::Box& lit = lit_bounds_[i];
     for (int corner = 0; corner < 8; ++corner) {

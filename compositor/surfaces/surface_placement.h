@@ -21,6 +21,11 @@ class SurfacePlacement {
   void Clear();
   /// Adds the next surface, in order.
   void Add(const LitMesh& mesh);
+  /// Gives a surface another shape; applies from the next Reset(), Move() or Refresh() on. Its
+  /// bounds only grow, so that shadow maps which are fitted to them seldom change.
+  void SetShape(std::size_t surface, const LitMesh& mesh);
+  /// Follows the surfaces' shapes.
+  void Refresh(std::span<const SurfaceBuffers> surfaces) { Place(surfaces); }
   /// Resets all `models` placed models to where they were lit. `surfaces`: the added surfaces;
   /// casters() refers to them.
   void Reset(std::size_t models, std::span<const SurfaceBuffers> surfaces);
@@ -46,7 +51,8 @@ class SurfacePlacement {
   std::vector<glm::dmat4> moved_;         // One per placed model.
   std::vector<shadows::ShadowCaster> casters_, phantom_casters_;
   shadows::Box object_bounds_, bounds_;
-  std::uint64_t revision_ = 0;  // Revision of the surfaces, which the shadow maps follow.
+  std::uint64_t revision_ = 0;  // Of the surfaces and their shapes, which shadow maps follow.
+  std::vector<std::uint64_t> revisions_;  // One per surface.
 };
 
 }  // namespace pleinair::compositor

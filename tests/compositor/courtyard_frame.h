@@ -8,6 +8,7 @@
 #include <numbers>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/camera_model.h"
@@ -15,12 +16,29 @@
 #include "base/frames.h"
 #include "compositor/composer.h"
 #include "compositor/light/light_solver.h"
+#include "compositor/models/animation/model_animation.h"
 #include "compositor/models/model.h"
 #include "compositor/models/texture_decoder.h"
 #include "tests/compositor/light/light_scenes.h"
 #include "tests/source_tree.h"
 
 namespace pleinair::compositor::testing {
+
+/// An animation that keeps the shape of a model.
+class Unmoved : public ModelAnimation {
+ public:
+  explicit Unmoved(std::shared_ptr<const Model> model) : model_(std::move(model)) {}
+  double duration_s() const override { return 1.0; }
+  ModelBounds bounds() const override { return BoundsOf(*model_); }
+  std::vector<MeshShape> At(double) const override {
+    std::vector<MeshShape> shapes;
+    for (const Mesh& mesh : model_->meshes) shapes.push_back({mesh.positions, mesh.normals});
+    return shapes;
+  }
+
+ private:
+  std::shared_ptr<const Model> model_;
+};
 
 /// The models and the light of recordings/courtyard_midday.
 class Courtyard {
@@ -49,6 +67,24 @@ class Courtyard {
     composer->AssumeUnmodelledShadows(false);
     return composer;
   }
+
+  /// As MakeComposer(), with the object as one that may change its shape but does not.
+  std::unique_ptr<Composer> MakeChangingComposer(const ComposerOptions& options) const {
+    std::vector<PlacedModel> scene = scene_;
+    scene[1].playback.animation = std::make_shared<Unmoved>(scene[1].model);
+    const auto solver = LightSolver::Create(scene, {.rays_per_vertex = 64}).value();
+    auto composer = Composer::Create(camera_, scene, options).value();
+    CHECK_EQ(composer
+                 ->SetLight(solver->Solve(day_, Mat3{}), day_, Mat3{},
+                            solver->RadianceFromBelow(day_, Mat3{}))
+                 .has_value(),
+             true);
+    composer->AssumeUnmodelledShadows(false);
+    return composer;
+  }
+
+  /// Coverage by the object in Picture(), 0…255.
+  RgbImage ObjectMask() const { return ReadTexture(Folder() / "key/0036_objmask.png").value(); }
 
   RgbImage Picture() const { return ReadTexture(Folder() / "key/0036_background.png").value(); }
   /// For every frame.

@@ -41,6 +41,7 @@ unit = "ft"
 origin = "bottom centre"
 animation = "Walk"
 animation_start_s = 1.5
+loop = true
 translation_m = [1, 2.5, 0]
 rotation_deg = [0, 0, 90]
 scale = 0.001
@@ -170,6 +171,7 @@ TEST(SceneToml, SaysEverythingThatTheCompositorMayKnow) {
   EXPECT_EQ(scene->objects[0].origin, ModelOrigin::kBottomCentre);
   EXPECT_EQ(scene->objects[0].animation, "Walk");
   EXPECT_EQ(scene->objects[0].animation_start_s, 1.5);
+  EXPECT_TRUE(scene->objects[0].loop);
   EXPECT_EQ(scene->phantoms[1].up, std::nullopt);
   EXPECT_EQ(scene->phantoms[1].unit_m, std::nullopt);
   EXPECT_EQ(scene->phantoms[1].origin, ModelOrigin::kFile);
@@ -209,7 +211,7 @@ TEST(SceneToml, UnknownKeysAreRefusedWithTheirLine) {
               AllOf(HasSubstr("scene.toml:3: \"turbid\" is unknown"), HasSubstr("turbidity")));
   EXPECT_THAT(Refusal(tests::Replaced(kScene, "height_m", "altitude")),
               HasSubstr("scene.toml:9: \"altitude\" is unknown"));
-  EXPECT_THAT(Refusal(tests::Replaced(kScene, "scale", "size")), HasSubstr("scene.toml:34"));
+  EXPECT_THAT(Refusal(tests::Replaced(kScene, "scale", "size")), HasSubstr("scene.toml:35"));
 }
 
 TEST(SceneToml, LocalTimeIsRefused) {
@@ -253,6 +255,9 @@ TEST(SceneToml, ValuesMustBeInRange) {
   EXPECT_THAT(with("up = \"y\"", "up = \"x\""), HasSubstr("known are y and z"));
   EXPECT_THAT(with("\"ft\"", "\"yd\""), HasSubstr("known are mm, cm, m, in and ft"));
   EXPECT_THAT(with("animation = \"Walk\"\n", ""), HasSubstr("needs an animation"));
+  EXPECT_THAT(with("_start_s = 1.5", "_start_s = -0.5"), HasSubstr("before the animation's"));
+  EXPECT_THAT(with("file = \"models/wall.obj\"", "file = \"models/wall.obj\"\nloop = true"),
+              HasSubstr("is for objects"));
   EXPECT_THAT(with("\"bottom centre\"", "\"top\""), HasSubstr("known are file and bottom centre"));
   EXPECT_THAT(with("\"Hazy\"", "\"grey\""), HasSubstr("known are clear, hazy"));
 }

@@ -10,6 +10,7 @@
 #include "base/srgb.h"
 #include "compositor/light/sky_table.h"
 #include "scene/sun_over_place.h"
+#include "session/scene_animation.h"
 #include "shadows/shadow_uniforms.h"
 
 namespace pleinair::app {
@@ -53,6 +54,7 @@ Result<std::unique_ptr<DayRenderer>> DayRenderer::Create(
   }
   PLEINAIR_ASSIGN_OR_RETURN(renderer->composer_,
                             compositor::Composer::Create(camera, placed, drawing));
+  renderer->placed_ = std::move(placed);
   return renderer;
 }
 
@@ -75,6 +77,7 @@ Result<RgbImage> DayRenderer::Render(const Transform<Camera, Marker>& camera_fro
   }
   PLEINAIR_RETURN_IF_ERROR(
       composer_->SetLight(light.meshes, light.daylight, light.marker_from_world, light.from_below));
+  session::PlayAnimations(placed_, request_.time, time, composer_.get());
   return composer_->Compose(Far(light, camera_from_marker, exposure_scale).view(),
                             camera_from_marker, exposure_scale);
 }

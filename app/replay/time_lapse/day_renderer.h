@@ -17,8 +17,8 @@ namespace pleinair::app {
 /// time. Each image needs one matrix-vector product with the daylight coefficients.
 class DayRenderer {
  public:
-  /// `request`: the scene's estimated light, with coefficients; its time is ignored. `placed`: the
-  /// models that its solver was built from. Errors: as Composer::Create().
+  /// `request`: the scene's estimated light, with coefficients; its time begins the scene.
+  /// `placed`: the models that its solver was built from. Errors: as Composer::Create().
   static Result<std::unique_ptr<DayRenderer>> Create(const CameraModel& camera,
                                                      std::vector<compositor::PlacedModel> placed,
                                                      session::LightingRequest request,
@@ -40,6 +40,7 @@ class DayRenderer {
   session::LightingRequest request_;
   int width_, height_;
   std::vector<Vec3> rays_;  // Per pixel; camera coordinates, unit.
+  std::vector<compositor::PlacedModel> placed_;
   std::unique_ptr<compositor::Composer> composer_;
 };
 

@@ -1,0 +1,184 @@
+#include "compositor/light/changing/changing_bodies.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+#include "compositor/light/changing/body_probes.h"
+#include "compositor/light/changing/changing_mesh.h"
+#include "compositor/light/changing/contact_light.h"
+#include "compositor/light/changing/sky_harmonics.h"
+#include "compositor/light/changing/surroundings.h"
+#include "compositor/light/reflectance.h"
+
+namespace pleinair::compositor {
+namespace {
+
+// Probes and still vertices that a frame refreshes: about 4 ms on two processors.
+constexpr std::size_t kProbesPerFrame = 192, kVerticesPerFrame = 384;
+// Rounds over all of them when the scene is new, so that the first frame has 64 rays a probe.
+constexpr int kFirstRounds = 4;
+// Movement of the sun after which all light is traced again.
+constexpr double kMaxSunMove = 0.03;
+
+bool HaveSameGeometry(std::span<const LitMesh> a, std::span<const LitMesh> b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const LitMesh& x, const LitMesh& y) {
+    return x.geometry == y.geometry && x.geometry != 0 && x.is_phantom == y.is_phantom;
+  });
+}
+
+class TracedBodies : public ChangingBodies {
+ public:
+  explicit TracedBodies(const std::vector<PlacedModel>& scene) {
+    bodies_.reserve(scene.size());  // Probes refer to them.
+    for (std::size_t i = 0; i < scene.size(); ++i) {
+      models_.push_back(scene[i].model);
+      if (!scene[i].playback.animation) continue;
+      bodies_.emplace_back(scene[i], static_cast<int>(i));
+    }
+  }
+
+  bool empty() const { return bodies_.empty(); }
+
+  bool Has(int placed_model) const override { return Find(placed_model) != nullptr; }
+
+  void SetShape(int placed_model, std::span<const MeshShape> shape) override {
+    if (ChangingMesh* body = Find(placed_model)) body->SetShape(shape);
+    state_.has_new_shape = true;
+  }
+
+  void Move(int placed_model, const Mat3& linear, Vec3 translation_m) override {
+    if (ChangingMesh* body = Find(placed_model)) body->Move(linear, translation_m);
+  }
+
+  Result<void> SetLight(const std::vector<LitMesh>& still, const sky::SkyModel& daylight,
+                        const Mat3& marker_from_world) override {
+    const bool is_new = !HaveSameGeometry(still_, still) || still_.empty();
+    still_ = still;
+    surroundings_.SetDaylight(daylight, marker_from_world);
+    harmonics_ = SkyHarmonics(surroundings_.sky());
+    if (is_new) {
+      PLEINAIR_RETURN_IF_ERROR(MakeSurfaces());
+    } else {
+      std::copy(still_.begin(), still_.end(), meshes_.begin());
+    }
+    const Vec3 to_sun = marker_from_world * daylight.ToSun().xyz;
+    if (is_new || Norm(to_sun - state_.to_sun) > kMaxSunMove) {
+      state_.to_sun = to_sun;
+      state_.rounds = kFirstRounds;
+    }
+    state_.has_new_light = true;
+    contacts_->Light(Still());
+    return {};
+  }
+
+  bool Update() override {
+    if (!contacts_) return false;
+    if (state_.has_new_shape) Follow();
+    state_.has_new_shape = state_.has_new_light = false;
+    for (; state_.rounds > 0; --state_.rounds) Refresh(probes_->size(), contacts_->size());
+    Refresh(kProbesPerFrame, kVerticesPerFrame);
+    return true;
+  }
+
+  const std::vector<LitMesh>& meshes() const override { return meshes_; }
+  std::size_t first_body() const override { return still_.size(); }
+
+ private:
+  struct State {
+    bool has_new_shape = true, has_new_light = true;
+    int rounds = 0;  // Over all probes, before the next frame.
+    Vec3 to_sun;     // When all light was last traced.
+  };
+
+  const ChangingMesh* Find(int placed_model) const {
+    const auto found = std::ranges::find(bodies_, placed_model, &ChangingMesh::placed_model);
+    return found == bodies_.end() ? nullptr : &*found;
+  }
+  ChangingMesh* Find(int placed_model) {
+    return const_cast<ChangingMesh*>(std::as_const(*this).Find(placed_model));
+  }
+
+  std::span<LitMesh> Still() { return std::span(meshes_).first(still_.size()); }
+  std::span<LitMesh> Drawn() { return std::span(meshes_).subspan(still_.size()); }
+
+  /// Copies the still surfaces, and adds those of the bodies.
+  Result<void> MakeSurfaces() {
+    std::vector<LitMesh> drawn;
+    if (!probes_) probes_.emplace(bodies_);
+    if (meshes_.empty()) {
+      for (const ChangingMesh& body : bodies_) {
+        for (LitMesh& mesh : body.DrawnMeshes()) drawn.push_back(std::move(mesh));
+      }
+    } else {
+      drawn.assign(std::make_move_iterator(meshes_.end() - static_cast<std::ptrdiff_t>(drawn_)),
+                   std::make_move_iterator(meshes_.end()));
+    }
+    drawn_ = drawn.size();
+    meshes_ = still_;
+    meshes_.insert(meshes_.end(), std::make_move_iterator(drawn.begin()),
+                   std::make_move_iterator(drawn.end()));
+    const auto albedo_of = [&](const LitMesh& mesh) {
+      return ReflectanceOf(*models_[static_cast<std::size_t>(mesh.placed_model)], mesh.material);
+    };
+    PLEINAIR_RETURN_IF_ERROR(surroundings_.SetStill(PairedSides(Still(), albedo_of)));
+    PLEINAIR_RETURN_IF_ERROR(surroundings_.SetBodies(PairedSides(Drawn(), albedo_of)));
+    contacts_.emplace(still_);
+    contacts_->FollowBodies(Drawn(), 0.0);
+    return {};
+  }
+
+  /// Moves the drawn surfaces to the bodies' shapes.
+  void Follow() {
+    std::vector<std::vector<std::array<float, 3>>> before;
+    for (const LitMesh& mesh : Drawn()) before.push_back(mesh.positions);
+    std::size_t next = 0;
+    for (const ChangingMesh& body : bodies_) {
+      std::size_t count = 0;
+      for (const SurfaceMesh& surface : body.surfaces()) count += surface.closed ? 1 : 2;
+      body.CopyShape(Drawn().subspan(next, count));
+      next += count;
+    }
+    float moved_m = 0.0F;
+    for (std::size_t m = 0; m < before.size(); ++m) {
+      for (std::size_t v = 0; v < before[m].size(); ++v) {
+        for (std::size_t c = 0; c < 3; ++c) {
+          moved_m = std::max(moved_m, std::fabs(before[m][v][c] - Drawn()[m].positions[v][c]));
+        }
+      }
+    }
+    surroundings_.MoveBodies();
+    contacts_->FollowBodies(Drawn(), static_cast<double>(moved_m));
+  }
+
+  void Refresh(std::size_t probes, std::size_t vertices) {
+    probes_->Refresh(surroundings_, probes);
+    contacts_->Refresh(surroundings_, vertices);
+    probes_->Light(harmonics_, Drawn());
+    contacts_->Light(Still());
+  }
+
+  std::vector<std::shared_ptr<const Model>> models_;  // By placed model.
+  std::vector<ChangingMesh> bodies_;
+  std::vector<LitMesh> still_;  // Without the bodies.
+  std::vector<LitMesh> meshes_;
+  std::size_t drawn_ = 0;  // Number of the bodies' meshes.
+  Surroundings surroundings_;
+  SkyHarmonics harmonics_;
+  std::optional<BodyProbes> probes_;
+  std::optional<ContactLight> contacts_;
+  State state_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<ChangingBodies>> ChangingBodies::Create(
+    const std::vector<PlacedModel>& scene) {
+  auto bodies = std::make_unique<TracedBodies>(scene);
+  if (bodies->empty()) return nullptr;
+  return bodies;
+}
+
+}  // namespace pleinair::compositor

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/vector.h"
+#include "compositor/light/lit_mesh.h"
+#include "compositor/models/animation/model_animation.h"
+#include "compositor/models/placed_model.h"
+#include "compositor/models/surface_orientation.h"
+
+namespace pleinair::compositor {
+
+/// The surfaces of a placed model that changes its shape, marker coordinates. Its triangles are
+/// those of the model, split once into pieces that are fine enough for light at vertices. What is
+/// inside and what is a front stays as in the shape that it was made with.
+class ChangingMesh {
+ public:
+  ChangingMesh(const PlacedModel& placed, int placed_model);
+
+  int placed_model() const { return placed_model_; }
+  /// Takes the shape of the model's meshes, at the current place.
+  void SetShape(std::span<const MeshShape> shape);
+  /// Moves the model relative to where it was placed: x' = linear x + translation. Applies from the
+  /// next SetShape() on.
+  void Move(const Mat3& linear, Vec3 translation_m);
+
+  /// The surfaces in their current shape. Both sides of an open one are one surface.
+  std::span<const SurfaceMesh> surfaces() const { return surfaces_; }
+  /// What to draw, without light: one mesh per surface, and a second for the back of an open one.
+  std::vector<LitMesh> DrawnMeshes() const;
+  /// Copies the current positions and normals into such meshes.
+  void CopyShape(std::span<LitMesh> drawn) const;
+
+ private:
+  struct Source {
+    std::size_t mesh = 0;
+    std::vector<std::uint32_t> vertices;  // Of the mesh: the surface's first vertices.
+    std::vector<bool> turned;             // By vertex: the normal is opposite to the mesh's.
+    std::vector<std::array<std::uint32_t, 2>> parents;  // Ends of the edges that were split.
+  };
+  static void Split(double max_edge_m, SurfaceMesh* surface, Source* source);
+
+  int placed_model_;
+  Mat3 placed_linear_, linear_;
+  Vec3 placed_translation_m_, translation_m_;
+  std::vector<SurfaceMesh> surfaces_;
+  std::vector<Source> sources_;  // One per surface.
+};
+
+}  // namespace pleinair::compositor

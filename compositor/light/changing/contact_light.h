@@ -1,0 +1,70 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/vector.h"
+#include "compositor/light/changing/surroundings.h"
+#include "compositor/light/lit_mesh.h"
+
+namespace pleinair::compositor {
+
+/// How bodies that change take indirect light from still surfaces near them, and reflect light to
+/// them. At a vertex of normal n, with rays in the cone that holds the bodies,
+///
+///     ΔE = Ω/N Σ max(n · ω, 0) (L_body(ω) − L_behind(ω)),
+///
+/// summed over the N rays that end at a body; Ω is the cone's solid angle. L_behind is the sky's
+/// radiance, or the mean of what the vertex receives where a still surface is behind the body.
+class ContactLight {
+ public:
+  /// `still`: the surfaces in their light without the bodies. It must outlive this object.
+  explicit ContactLight(std::span<const LitMesh> still);
+
+  /// Measures the sphere around the bodies. `moved_m`: how far the vertex that moved most has
+  /// moved.
+  void FollowBodies(std::span<const LitMesh> bodies, double moved_m);
+  /// Traces rays from the next `vertices` vertices that are near the bodies; two of three are those
+  /// next to them.
+  void Refresh(const Surroundings& surroundings, std::size_t vertices);
+  /// Number of vertices near the bodies.
+  std::size_t size() const { return near_.size(); }
+  /// Sets the light of `drawn`, copies of the still surfaces, to that with the bodies.
+  void Light(std::span<LitMesh> drawn);
+
+  static constexpr double kReach_m = 3.0;
+  static constexpr std::uint32_t kRays = 16;
+
+ private:
+  struct Sphere {
+    Vec3 centre;
+    double radius_m = 0.0;
+  };
+  struct Place {
+    std::uint32_t mesh = 0, vertex = 0;
+  };
+  struct Change {
+    std::array<float, 3> light{}, sunlight{};
+    float rays = 0.0F;
+    std::uint32_t round = 0;
+    double path_m = 0.0;  ///< ContactLight::path_m_ at the last refresh.
+  };
+  /// A part of `near_`, whose vertices take turns.
+  struct Turns {
+    std::size_t begin = 0, size = 0, next = 0;
+  };
+  void Refresh(const Surroundings& surroundings, std::size_t vertices, Turns* turns);
+  void Trace(const Surroundings& surroundings, std::size_t index);
+
+  std::span<const LitMesh> still_;
+  std::vector<std::vector<Change>> changes_;  // By mesh and vertex.
+  std::vector<Place> near_, left_;            // Those that are near, and those that were.
+  std::array<Turns, 2> turns_;                // Next to the bodies, and farther off.
+  Sphere bodies_, near_of_;
+  double path_m_ = 0.0;  // How far the bodies have moved.
+};
+
+}  // namespace pleinair::compositor

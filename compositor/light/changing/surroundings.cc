@@ -1,0 +1,117 @@
+#include "compositor/light/changing/surroundings.h"
+
+#include <numbers>
+#include <utility>
+
+#include "compositor/light/gather_origin.h"
+
+namespace pleinair::compositor {
+namespace {
+
+Vec3 WidenedVector(const std::array<float, 3>& a) { return {a[0], a[1], a[2]}; }
+
+/// A value of the corners of a triangle, where a ray hit it.
+std::array<float, 3> AtHit(const std::vector<std::array<float, 3>>& values,
+                           const std::uint32_t* corners, const RayHit& hit) {
+  if (values.empty()) return {};
+  const auto &a = values[corners[0]], &b = values[corners[1]], &c = values[corners[2]];
+  const float w = 1.0F - hit.u - hit.v;
+  return {w * a[0] + hit.u * b[0] + hit.v * c[0], w * a[1] + hit.u * b[1] + hit.v * c[1],
+          w * a[2] + hit.u * b[2] + hit.v * c[2]};
+}
+
+}  // namespace
+
+void Surroundings::SetDaylight(const sky::SkyModel& day, const Mat3& marker_from_world) {
+  sky_.emplace(day, marker_from_world, kLandAlbedo);
+  to_sun_ = marker_from_world * day.ToSun().xyz;
+  sun_lux_ = day.SunNormalIrradiance();
+}
+
+Result<std::unique_ptr<RayScene>> Surroundings::RaysOf(std::span<const Surface> surfaces) {
+  std::vector<RayMesh> meshes;
+  meshes.reserve(surfaces.size());
+  for (const Surface& surface : surfaces) {
+    meshes.push_back({surface.front->positions, surface.front->indices, false});
+  }
+  return RayScene::Create(meshes, "scene");
+}
+
+Result<void> Surroundings::SetStill(std::vector<Surface> surfaces) {
+  PLEINAIR_ASSIGN_OR_RETURN(still_rays_, RaysOf(surfaces));
+  still_ = std::move(surfaces);
+  return {};
+}
+
+Result<void> Surroundings::SetBodies(std::vector<Surface> surfaces) {
+  PLEINAIR_ASSIGN_OR_RETURN(body_rays_, RaysOf(surfaces));
+  bodies_ = std::move(surfaces);
+  return {};
+}
+
+void Surroundings::MoveBodies() {
+  std::vector<const std::vector<std::array<float, 3>>*> positions;
+  positions.reserve(bodies_.size());
+  for (const Surface& body : bodies_) positions.push_back(&body.front->positions);
+  body_rays_->SetPositions(positions);
+}
+
+SeenAlongRay Surroundings::LightFrom(const Surface& surface, const RayHit& hit, Vec3 origin,
+                                     Vec3 direction, SeenAlongRay::What what) const {
+  const LitMesh* side = hit.back ? surface.back : surface.front;
+  if (side == nullptr) return {SeenAlongRay::What::kInside, {}, {}};
+  SeenAlongRay seen{what, {}, {}};
+  const std::uint32_t* corners = &surface.front->indices[3 * std::size_t{hit.triangle}];
+  const std::array<float, 3> ambient = AtHit(side->ambient_with, corners, hit);
+  const std::array<float, 3> reflected = AtHit(side->sunlight.reflected_with, corners, hit);
+  const auto& positions = surface.front->positions;
+  const Vec3 a = WidenedVector(positions[corners[0]]);
+  Vec3 normal = Normalized(
+      Cross(WidenedVector(positions[corners[1]]) - a, WidenedVector(positions[corners[2]]) - a));
+  if (hit.back) normal = -normal;
+  LinearRgb sun;
+  if (const double cosine = Dot(normal, to_sun_); cosine > 0.0 && Luminance(sun_lux_) > 0.0) {
+    const Vec3 point = origin + direction * hit.distance_m + normal * kRayOffset_m;
+    if (!body_rays_->Occluded(RayTargets::kEverything, point, to_sun_) &&
+        !still_rays_->Occluded(RayTargets::kEverything, point, to_sun_)) {
+      sun = sun_lux_ * cosine;
+    }
+  }
+  const std::array<double, 3> sun_of{sun.r, sun.g, sun.b};
+  for (std::size_t c = 0; c < 3; ++c) {
+    const float share = surface.albedo[c] * std::numbers::inv_pi_v<float>;
+    const auto direct = static_cast<float>(sun_of[c]);
+    seen.radiance[c] = share * (ambient[c] + direct);
+    seen.sunlight[c] = share * (reflected[c] + direct);
+  }
+  return seen;
+}
+
+SeenAlongRay Surroundings::Look(Vec3 origin, Vec3 direction) const {
+  RayHit body, still;
+  const bool sees_body = body_rays_->Intersect(RayTargets::kEverything, origin, direction, &body);
+  const bool sees_still =
+      still_rays_->Intersect(RayTargets::kEverything, origin, direction, &still);
+  if (sees_body && (!sees_still || body.distance_m < still.distance_m)) {
+    return LightFrom(bodies_[body.mesh], body, origin, direction, SeenAlongRay::What::kBody);
+  }
+  if (sees_still) {
+    return LightFrom(still_[still.mesh], still, origin, direction, SeenAlongRay::What::kStill);
+  }
+  if (sky_->SineElevation(direction) >= 0.0) {
+    return {SeenAlongRay::What::kSky, sky_->Radiance(direction), {}};
+  }
+  return {SeenAlongRay::What::kLand, sky_->Radiance(direction), sky_->sunlight_from_land()};
+}
+
+std::optional<SeenAlongRay> Surroundings::LookAtBodies(Vec3 origin, Vec3 direction) const {
+  RayHit body, still;
+  if (!body_rays_->Intersect(RayTargets::kEverything, origin, direction, &body)) return {};
+  if (still_rays_->Intersect(RayTargets::kEverything, origin, direction, &still) &&
+      still.distance_m < body.distance_m) {
+    return {};
+  }
+  return LightFrom(bodies_[body.mesh], body, origin, direction, SeenAlongRay::What::kBody);
+}
+
+}  // namespace pleinair::compositor

@@ -1,0 +1,129 @@
+// Objects that change their shape: their light, shadows and contact, against still ones.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/compare/ciede2000.h"
+#include "compositor/light/changing/sky_harmonics.h"
+#include "compositor/models/animation/model_animation.h"
+#include "tests/compositor/composer_scene.h"
+#include "tests/compositor/courtyard_frame.h"
+
+namespace pleinair::compositor {
+namespace {
+
+double DifferenceAt(const RgbImage& a, const RgbImage& b, int x, int y) {
+  const auto lab = [&](const RgbImage& image) {
+    return app::LabFromSrgb8({image(x, y, 0), image(x, y, 1), image(x, y, 2)});
+  };
+  return app::Ciede2000(lab(a), lab(b));
+}
+
+bool SameBytes(const RgbImage& a, const RgbImage& b) {
+  return std::equal(a.data(), a.data() + a.size(), b.data(), b.data() + b.size());
+}
+
+TEST(ChangingSurface, IsLitAsATracedOneInTheCourtyard) {
+  const testing::Courtyard courtyard;
+  const RgbImage picture = courtyard.Picture(), mask = courtyard.ObjectMask();
+  const auto compose = [&](Composer& composer) {
+    return composer
+        .Compose(picture.view(), courtyard.poses()[testing::Courtyard::kKeyFrame],
+                 courtyard.ExposureScale())
+        .value();
+  };
+  const RgbImage still = compose(*courtyard.MakeComposer({}));
+  const auto changing = courtyard.MakeChangingComposer({});
+  RgbImage composed = compose(*changing);
+  for (const char* moment : {"first", "tenth"}) {
+    double body = 0.0, shadow = 0.0;
+    int body_pixels = 0, shadow_pixels = 0;
+    for (int y = 0; y < picture.height(); ++y) {
+      for (int x = 0; x < picture.width(); ++x) {
+        const double difference = DifferenceAt(still, composed, x, y);
+        if (mask(x, y, 0) > 127) {
+          body += difference;
+          ++body_pixels;
+        } else if (still(x, y, 1) + 4 < picture(x, y, 1)) {
+          shadow += difference;
+          ++shadow_pixels;
+        }
+      }
+    }
+    ASSERT_GT(body_pixels, 1000);
+    ASSERT_GT(shadow_pixels, 1000);
+    const std::string frame = moment;
+    RecordProperty("body_" + frame, std::to_string(body / body_pixels));
+    RecordProperty("shadow_" + frame, std::to_string(shadow / shadow_pixels));
+    EXPECT_LE(body / body_pixels, 3.0) << frame;
+    EXPECT_LE(shadow / shadow_pixels, 3.0) << frame;
+    for (int i = 0; i < 9; ++i) composed = compose(*changing);
+  }
+}
+
+/// The cube on the ground, which may move.
+class MovingCube {
+ public:
+  MovingCube() {
+    cube_.playback.animation = std::make_shared<testing::Unmoved>(cube_.model);
+    composer_ = ComposerInTheSun({kGround, cube_});
+  }
+
+  /// Composes an image with the cube moved to the right.
+  RgbImage At(double right_m) {
+    std::vector<MeshShape> shape = cube_.playback.animation->At(0.0);
+    for (auto& position : shape[0].positions) position[0] += static_cast<float>(right_m);
+    composer_->SetShape(1, shape);
+    return composer_->Compose(EvenPicture(150).view(), kFromAbove, exposure_).value();
+  }
+
+ private:
+  PlacedModel cube_ = kCube;
+  LinearRgb exposure_{kExposureScale, kExposureScale, kExposureScale};
+  std::unique_ptr<Composer> composer_;
+};
+
+TEST(ChangingSurface, TakesItsShadowAlong) {
+  MovingCube cube;
+  const double ground = SeenAt(EvenPicture(150), {});
+  const Vec3 on_top{0, 0, 0.3}, in_shadow{0, 0.3, 0}, moved{0.7, 0, 0};
+  const RgbImage before = cube.At(0.0);
+  EXPECT_NEAR(SeenAt(before, on_top), Level(0.5), 0.02);
+  EXPECT_LT(SeenAt(before, in_shadow), 0.4 * ground);
+  EXPECT_NEAR(SeenAt(before, in_shadow + moved), ground, 0.01);
+  RgbImage after = cube.At(0.7);
+  EXPECT_NEAR(SeenAt(after, on_top + moved), Level(0.5), 0.02);
+  EXPECT_LT(SeenAt(after, in_shadow + moved), 0.4 * ground);
+  // Where it was, the ground is lit again; what it took of the sky comes back within some frames.
+  for (int i = 0; i < 40; ++i) after = cube.At(0.7);
+  EXPECT_NEAR(SeenAt(after, in_shadow), ground, 0.01);
+  EXPECT_NEAR(SeenAt(after, {}), ground, 0.01);
+}
+
+TEST(ChangingSurface, DependsOnTheSequenceOfShapesAlone) {
+  MovingCube a, b;
+  for (const double right_m : {0.0, 0.05, 0.1, 0.2, -0.1}) {
+    EXPECT_TRUE(SameBytes(a.At(right_m), b.At(right_m))) << right_m;
+  }
+}
+
+TEST(SkyHarmonics, ReproduceAUniformSkyThroughAnyCone) {
+  const SouthernSun day;
+  const SkyHarmonics harmonics(SkyTable(day, Mat3{}, 0.2));
+  for (const double open : {0.0, 0.1, 0.5, 1.0}) {
+    for (const Vec3 bent : {Vec3{0, 0, 1}, Vec3{0.6, 0, 0.8}, Vec3{0, -1, 0}}) {
+      EXPECT_NEAR(harmonics.Irradiance(bent, open)[1], open * kSkyLux, 0.01 * kSkyLux) << open;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace pleinair::compositor
