@@ -276,8 +276,8 @@ Result<int> ShadowMaps::Redraw(std::span<const ShadowCaster> casters, const Ligh
         covered = inner.Contains(footprint) && finer_min <= depth_min && finer_max >= depth_max;
       }
       if (covered) continue;
-      key.casters.push_back(
-          {caster.vertices->id(), caster.index_count, caster.marker_from_model, caster.revision});
+      key.casters.push_back({caster.vertices->id(), caster.index_count, caster.marker_from_model,
+                             caster.revision, caster.sun_side_only});
     }
 
     const glm::dvec2 scale = 1.0 / texel;
@@ -313,16 +313,18 @@ void ShadowMaps::DrawDepth(int slice, const LightAxes& axes) {
   glEnable(GL_DEPTH_TEST);
   glDepthMask(GL_TRUE);
   glDepthFunc(GL_LESS);
-  glDisable(GL_CULL_FACE);
+  glFrontFace(GL_CCW);
   glEnable(GL_DEPTH_CLAMP);
   depth_program_.Use();
   const glm::dmat4 clip_from_marker =
       ClipFromMarker(axes, key.window, key.depth_min, key.depth_max);
   for (const CasterKey& caster : key.casters) {
     depth_program_.Set("clip_from_model", glm::mat4(clip_from_marker * caster.marker_from_model));
+    (caster.sun_side_only ? glEnable : glDisable)(GL_CULL_FACE);
     glBindVertexArray(caster.vertices);
     glDrawElements(GL_TRIANGLES, caster.index_count, GL_UNSIGNED_INT, nullptr);
   }
+  glDisable(GL_CULL_FACE);
   glDisable(GL_DEPTH_CLAMP);
 }
 

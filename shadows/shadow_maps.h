@@ -67,6 +67,9 @@ struct ShadowCaster {
   glm::dmat4 marker_from_model{1.0};
   Box bounds;                  ///< Marker coordinates; must contain all triangles.
   std::uint64_t revision = 0;  ///< Change it when the content of the buffers changes.
+  /// Draws only the triangles that run counter-clockwise as seen from the sun: half of a closed
+  /// body. Its other sides, and the backs of open surfaces, must be casters of their own.
+  bool sun_side_only = false;
 };
 
 /// Z-partitioned shadow maps of the sun (Kolivand & Sunar 2014, with the deviations explained in
@@ -129,6 +132,7 @@ class ShadowMaps {
     int index_count = 0;
     glm::dmat4 marker_from_model{1.0};
     std::uint64_t revision = 0;
+    bool sun_side_only = false;
     bool operator==(const CasterKey&) const = default;
   };
   struct SliceKey {

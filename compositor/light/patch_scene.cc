@@ -164,16 +164,7 @@ void AddFaces(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& indices
 
 /// Two corners of the box around all shapes of an object that changes, in place of its surfaces.
 SurfaceMesh BoxAroundShapes(const PlacedModel& placed) {
-  const ModelBounds bounds = placed.playback.animation->bounds();
-  Vec3 low{1e30, 1e30, 1e30}, high{-1e30, -1e30, -1e30};
-  for (int corner = 0; corner < 8; ++corner) {
-    const Vec3 at = placed.linear * Vec3{(corner & 1) != 0 ? bounds.min_m.x : bounds.max_m.x,
-                                         (corner & 2) != 0 ? bounds.min_m.y : bounds.max_m.y,
-                                         (corner & 4) != 0 ? bounds.min_m.z : bounds.max_m.z} +
-                    placed.translation_m;
-    low = {std::min(low.x, at.x), std::min(low.y, at.y), std::min(low.z, at.z)};
-    high = {std::max(high.x, at.x), std::max(high.y, at.y), std::max(high.z, at.z)};
-  }
+  const auto [low, high] = BoundsOfShapes(placed);
   SurfaceMesh box;
   for (const Vec3 at : {low, high}) {
     box.positions.push_back(

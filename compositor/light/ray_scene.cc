@@ -56,19 +56,18 @@ class EmbreeScene : public RayScene {
         everything_(std::move(everything)),
         phantoms_(std::move(phantoms)) {}
 
-  void SetPositions(std::span<const std::vector<std::array<float, 3>>* const> positions) override {
+  void SetPositions(std::span<const std::vector<std::array<float, 3>>> positions) override {
     for (unsigned id = 0; id < positions.size(); ++id) {
       const RTCGeometry geometry = rtcGetGeometry(everything_.get(), id);
       if (geometry == nullptr) continue;  // A mesh without triangles.
       void* buffer = rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_VERTEX, 0);
-      std::memcpy(buffer, positions[id]->data(), positions[id]->size() * 3 * sizeof(float));
+      std::memcpy(buffer, positions[id].data(), positions[id].size() * 3 * sizeof(float));
       rtcUpdateGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0);
       rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_REFIT);
       rtcCommitGeometry(geometry);
     }
     rtcSetSceneFlags(everything_.get(), RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC);
     rtcCommitScene(everything_.get());
-    rtcCommitScene(phantoms_.get());
   }
 
   bool Intersect(RayTargets targets, Vec3 origin, Vec3 direction, RayHit* hit) const override {

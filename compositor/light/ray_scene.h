@@ -43,8 +43,7 @@ class RayScene {
   /// Moves the vertices of all meshes: one list per mesh of Create(), as long as before. The order
   /// of the search stays, so that this is cheap, but queries are slower after large changes. Not
   /// while others query.
-  virtual void SetPositions(
-      std::span<const std::vector<std::array<float, 3>>* const> positions) = 0;
+  virtual void SetPositions(std::span<const std::vector<std::array<float, 3>>> positions) = 0;
 
   /// Finds the nearest hit from `origin` along the unit vector `direction`. Returns false if there
   /// is none.

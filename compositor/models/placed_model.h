@@ -18,4 +18,7 @@ struct PlacedModel {
   Playback playback = {};
 };
 
+/// The box around all shapes of a model with a playback, marker coordinates.
+ModelBounds BoundsOfShapes(const PlacedModel& placed);
+
 }  // namespace pleinair::compositor

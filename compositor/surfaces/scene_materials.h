@@ -26,6 +26,9 @@ class SceneMaterials {
     return scene_[static_cast<std::size_t>(placed_model)]
         .model->materials[static_cast<std::size_t>(material)];
   }
+  const PlacedModel& Placed(int placed_model) const {
+    return scene_[static_cast<std::size_t>(placed_model)];
+  }
   /// Binds a material's base color to unit 0, metallic and roughness to unit 1, its normal map to
   /// unit 2 and its emission to unit 3. A missing texture is replaced by white.
   void BindTextures(int placed_model, const Material& material) const;

@@ -83,6 +83,10 @@ Result<void> SceneSurfaces::SetSurfaces(const std::vector<LitMesh>& lit) {
     PLEINAIR_ASSIGN_OR_RETURN(SurfaceBuffers surface, SurfaceBuffers::Create(mesh));
     surfaces_.push_back(std::move(surface));
     placement_.Add(mesh);
+    if (const PlacedModel& placed = materials_.Placed(mesh.placed_model);
+        placed.playback.animation) {
+      placement_.IncludeShapes(BoundsOfShapes(placed));
+    }
     if (mesh.is_phantom) {
       const Material& material = MaterialOf(surfaces_.back());
       const bool even = material.base_color_texture < 0 && material.metallic == 0.0F;

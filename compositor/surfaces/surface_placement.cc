@@ -5,20 +5,26 @@ namespace pleinair::compositor {
 void SurfacePlacement::Clear() {
   casters_.clear();
   phantom_casters_.clear();
-  lit_bounds_.clear();
-  revisions_.clear();
+  shapes_.clear();
   ++revision_;
 }
 
 void SurfacePlacement::Add(const LitMesh& mesh) {
-  lit_bounds_.emplace_back();
-  revisions_.push_back(revision_);
-  for (const auto& p : mesh.positions) lit_bounds_.back().Include({p[0], p[1], p[2]});
+  Shape& shape = shapes_.emplace_back();
+  shape.revision = revision_;
+  for (const auto& p : mesh.positions) shape.bounds.Include({p[0], p[1], p[2]});
+}
+
+void SurfacePlacement::IncludeShapes(const ModelBounds& shapes) {
+  shapes_.back().changes = true;
+  for (const Vec3 corner : {shapes.min_m, shapes.max_m}) {
+    shapes_.back().bounds.Include({corner.x, corner.y, corner.z});
+  }
 }
 
 void SurfacePlacement::SetShape(std::size_t surface, const LitMesh& mesh) {
-  for (const auto& p : mesh.positions) lit_bounds_[surface].Include({p[0], p[1], p[2]});
-  revisions_[surface] = ++revision_;
+  for (const auto& p : mesh.positions) shapes_[surface].bounds.Include({p[0], p[1], p[2]});
+  shapes_[surface].revision = ++revision_;
 }
 
 void SurfacePlacement::Reset(std::size_t models, std::span<const SurfaceBuffers> surfaces) {
@@ -46,9 +52,10 @@ void SurfacePlacement::Place(std::span<const SurfaceBuffers> surfaces) {
     shadows::ShadowCaster caster;
     caster.vertices = &surface.vertex_array();
     caster.index_count = surface.index_count();
-    caster.revision = revisions_[i];
+    caster.revision = shapes_[i].revision;
+    caster.sun_side_only = shapes_[i].changes;
     caster.marker_from_model = MovedBy(surface.placed_model());
-    const shadows::Box& lit = lit_bounds_[i];
+    const shadows::Box& lit = shapes_[i].bounds;
     for (int corner = 0; corner < 8; ++corner) {
       const glm::dvec4 point((corner & 1) != 0 ? lit.max.x : lit.min.x,
                              (corner & 2) != 0 ? lit.max.y : lit.min.y,

@@ -8,6 +8,7 @@
 
 #include "base/vector.h"
 #include "compositor/light/lit_mesh.h"
+#include "compositor/models/model_frame.h"
 #include "compositor/surfaces/surface_buffers.h"
 #include "shadows/shadow_maps.h"
 
@@ -21,6 +22,8 @@ class SurfacePlacement {
   void Clear();
   /// Adds the next surface, in order.
   void Add(const LitMesh& mesh);
+  /// Extends the bounds of the surface added last to those of all its shapes.
+  void IncludeShapes(const ModelBounds& shapes);
   /// Gives a surface another shape; applies from the next Reset(), Move() or Refresh() on. Its
   /// bounds only grow, so that shadow maps which are fitted to them seldom change.
   void SetShape(std::size_t surface, const LitMesh& mesh);
@@ -47,12 +50,18 @@ class SurfacePlacement {
   /// Computes casters and bounds at the models' current places.
   void Place(std::span<const SurfaceBuffers> surfaces);
 
-  std::vector<shadows::Box> lit_bounds_;  // One per surface, where it was lit.
-  std::vector<glm::dmat4> moved_;         // One per placed model.
+  /// Of a surface.
+  struct Shape {
+    shadows::Box bounds;         // Where it was lit.
+    std::uint64_t revision = 0;  // As shadows::ShadowCaster.
+    bool changes = false;
+  };
+
+  std::vector<Shape> shapes_;      // One per surface.
+  std::vector<glm::dmat4> moved_;  // One per placed model.
   std::vector<shadows::ShadowCaster> casters_, phantom_casters_;
   shadows::Box object_bounds_, bounds_;
   std::uint64_t revision_ = 0;  // Of the surfaces and their shapes, which shadow maps follow.
-  std::vector<std::uint64_t> revisions_;  // One per surface.
 };
 
 }  // namespace pleinair::compositor

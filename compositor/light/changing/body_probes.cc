@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 #include <utility>
 
 #include "base/parallel_for.h"
@@ -80,6 +81,43 @@ void BodyProbes::AddSide(Side side, std::size_t probes) {
   probe.side = static_cast<std::uint32_t>(sides_.size());
   probes_.insert(probes_.end(), probes, probe);
   sides_.push_back(std::move(side));
+}
+
+Surroundings::Coarse BodyProbes::CoarseTriangles(std::size_t drawn) const {
+  const Side& side = sides_[drawn];
+  Surroundings::Coarse coarse;
+  if (!side.groups) return coarse;
+  const SurfacePatches& groups = *side.groups;
+  const std::vector<Float3>& positions = side.surface->positions;
+  std::uint32_t first = 0;
+  for (const std::uint32_t last : groups.member_ends) {
+    const std::span<const std::uint32_t> members =
+        std::span(groups.members).subspan(first, last - first);
+    first = last;
+    Vec3 mean;
+    for (const std::uint32_t v : members) {
+      mean = mean + WideVector(positions[v]) * (1.0 / static_cast<double>(members.size()));
+    }
+    coarse.vertices.push_back(*std::ranges::min_element(
+        members, {}, [&](std::uint32_t v) { return Norm(WideVector(positions[v]) - mean); }));
+  }
+  std::set<std::array<std::uint32_t, 3>> known;
+  double length_m = 0.0;
+  for (std::size_t i = 0; i + 2 < side.surface->indices.size(); i += 3) {
+    std::array<std::uint32_t, 3> corners{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      corners[k] = groups.patch_of[side.surface->indices[i + k]];
+    }
+    if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) continue;
+    std::ranges::rotate(corners, std::ranges::min_element(corners));
+    if (!known.insert(corners).second) continue;
+    coarse.indices.insert(coarse.indices.end(), corners.begin(), corners.end());
+    length_m += Norm(WideVector(positions[coarse.vertices[corners[0]]]) -
+                     WideVector(positions[coarse.vertices[corners[1]]]));
+  }
+  if (known.empty()) return {};
+  coarse.gap_m = length_m / static_cast<double>(known.size());
+  return coarse;
 }
 
 void BodyProbes::Refresh(const Surroundings& surroundings, std::size_t probes) {
@@ -173,50 +211,50 @@ void BodyProbes::FillBuried() {
   }
 }
 
-BodyProbes::Cone BodyProbes::ConeAt(const Side& side, std::size_t vertex) const {
-  Cone cone;
-  Float3 bent{};
-  const auto add = [&](const Probe& probe, float weight) {
-    AddTo(probe.bent, weight, &bent);
-    AddTo(probe.reflected, weight, &cone.reflected);
-    AddTo(probe.sunlight, weight, &cone.sunlight);
-    cone.open += static_cast<double>(weight) * static_cast<double>(probe.open);
-  };
-  if (side.groups) {
-    const SurfacePatches& groups = *side.groups;
-    const std::uint32_t begin = vertex == 0 ? 0 : groups.interpolation_ends[vertex - 1];
-    for (std::uint32_t k = begin; k < groups.interpolation_ends[vertex]; ++k) {
-      const auto& [patch, weight] = groups.interpolation_weights[k];
-      add(probes_[side.first_probe + patch], weight);
-    }
-  } else {
-    add(probes_[side.first_probe + vertex], 1.0F);
+BodyProbes::Received BodyProbes::LightOf(const SkyHarmonics& sky, const Probe& probe) {
+  Vec3 bent = WideVector(probe.bent);
+  if (Norm(bent) < 1e-3) bent = WideVector(probe.normal);
+  if (Norm(bent) < 1e-3) bent = {0.0, 0.0, 1.0};
+  bent = Normalized(bent);
+  Received received{sky.Irradiance(bent, static_cast<double>(probe.open)), probe.sunlight};
+  AddTo(probe.reflected, 1.0F, &received.light);
+  return received;
+}
+
+BodyProbes::Received BodyProbes::LightAt(const Side& side, std::size_t vertex,
+                                         std::span<const Received> probes) {
+  if (!side.groups) return probes[side.first_probe + vertex];
+  const SurfacePatches& groups = *side.groups;
+  Received sum;
+  const std::uint32_t begin = vertex == 0 ? 0 : groups.interpolation_ends[vertex - 1];
+  for (std::uint32_t k = begin; k < groups.interpolation_ends[vertex]; ++k) {
+    const auto& [patch, weight] = groups.interpolation_weights[k];
+    AddTo(probes[side.first_probe + patch].light, weight, &sum.light);
+    AddTo(probes[side.first_probe + patch].sunlight, weight, &sum.sunlight);
   }
-  cone.bent = WideVector(bent);
-  const double norm = Norm(cone.bent);
-  cone.bent = norm > 1e-3 ? cone.bent * (1.0 / norm)
-                          : WideVector(side.surface->normals[vertex]) * (side.back ? -1.0 : 1.0);
-  return cone;
+  return sum;
 }
 
 void BodyProbes::Light(const SkyHarmonics& sky, std::span<LitMesh> drawn) const {
+  std::vector<Received> received;
+  received.reserve(probes_.size());
+  for (const Probe& probe : probes_) received.push_back(LightOf(sky, probe));
   for (std::size_t s = 0; s < sides_.size(); ++s) {
     const Side& side = sides_[s];
     LitMesh& mesh = drawn[s];
     const std::size_t count = mesh.positions.size();
-    ParallelFor(
-        (count + kLitVerticesPerBlock - 1) / kLitVerticesPerBlock, 0, [&](std::size_t block) {
-          const std::size_t last = std::min(count, (block + 1) * kLitVerticesPerBlock);
-          for (std::size_t v = block * kLitVerticesPerBlock; v < last; ++v) {
-            const Cone cone = ConeAt(side, v);
-            Float3 light = sky.Irradiance(cone.bent, cone.open);
-            for (std::size_t c = 0; c < 3; ++c) {
-              light[c] += std::max(cone.reflected[c], 0.0F);
-              mesh.sunlight.reflected_with[v][c] = std::clamp(cone.sunlight[c], 0.0F, light[c]);
-            }
-            mesh.ambient_with[v] = light;
-          }
-        });
+    ParallelFor((count + kLitVerticesPerBlock - 1) / kLitVerticesPerBlock, 0,
+                [&](std::size_t block) {
+                  const std::size_t last = std::min(count, (block + 1) * kLitVerticesPerBlock);
+                  for (std::size_t v = block * kLitVerticesPerBlock; v < last; ++v) {
+                    const Received at = LightAt(side, v, received);
+                    for (std::size_t c = 0; c < 3; ++c) {
+                      const float light = std::max(at.light[c], 0.0F);
+                      mesh.ambient_with[v][c] = light;
+                      mesh.sunlight.reflected_with[v][c] = std::clamp(at.sunlight[c], 0.0F, light);
+                    }
+                  }
+                });
   }
 }
 

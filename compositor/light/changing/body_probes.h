@@ -30,6 +30,10 @@ class BodyProbes {
   void Refresh(const Surroundings& surroundings, std::size_t probes);
   std::size_t size() const { return probes_.size(); }
 
+  /// One triangle per three patches that meet, for rays. Empty if the vertices of a mesh of
+  /// ChangingMesh::DrawnMeshes() are probes of their own.
+  Surroundings::Coarse CoarseTriangles(std::size_t drawn) const;
+
   /// Sets the light of the meshes of ChangingMesh::DrawnMeshes(), of all bodies in order.
   void Light(const SkyHarmonics& sky, std::span<LitMesh> drawn) const;
 
@@ -52,17 +56,16 @@ class BodyProbes {
     std::array<float, 3> place{}, normal{};        // At the last refresh.
     std::uint32_t side = 0, round = 0;
   };
-  /// What a vertex receives.
-  struct Cone {
-    Vec3 bent;
-    double open = 0.0;
-    std::array<float, 3> reflected{}, sunlight{};
+  /// Irradiance, and its part from the sun.
+  struct Received {
+    std::array<float, 3> light{}, sunlight{};
   };
 
   void AddSide(Side side, std::size_t probes);
   void Trace(const Surroundings& surroundings, std::size_t index);
   void FillBuried();
-  Cone ConeAt(const Side& side, std::size_t vertex) const;
+  static Received LightOf(const SkyHarmonics& sky, const Probe& probe);
+  static Received LightAt(const Side& side, std::size_t vertex, std::span<const Received> probes);
 
   std::vector<Side> sides_;
   std::vector<Probe> probes_;

@@ -124,7 +124,11 @@ class TracedBodies : public ChangingBodies {
       return ReflectanceOf(*models_[static_cast<std::size_t>(mesh.placed_model)], mesh.material);
     };
     PLEINAIR_RETURN_IF_ERROR(surroundings_.SetStill(PairedSides(Still(), albedo_of)));
-    PLEINAIR_RETURN_IF_ERROR(surroundings_.SetBodies(PairedSides(Drawn(), albedo_of)));
+    std::vector<Surroundings::Surface> bodies = PairedSides(Drawn(), albedo_of);
+    for (Surroundings::Surface& body : bodies) {
+      body.coarse = probes_->CoarseTriangles(static_cast<std::size_t>(body.front - Drawn().data()));
+    }
+    PLEINAIR_RETURN_IF_ERROR(surroundings_.SetBodies(std::move(bodies)));
     contacts_.emplace(still_);
     contacts_->FollowBodies(Drawn(), 0.0);
     return {};

@@ -1,5 +1,6 @@
 #include "compositor/light/changing/surroundings.h"
 
+#include <algorithm>
 #include <numbers>
 #include <utility>
 
@@ -12,7 +13,7 @@ Vec3 WidenedVector(const std::array<float, 3>& a) { return {a[0], a[1], a[2]}; }
 
 /// A value of the corners of a triangle, where a ray hit it.
 std::array<float, 3> AtHit(const std::vector<std::array<float, 3>>& values,
-                           const std::uint32_t* corners, const RayHit& hit) {
+                           const std::array<std::uint32_t, 3>& corners, const RayHit& hit) {
   if (values.empty()) return {};
   const auto &a = values[corners[0]], &b = values[corners[1]], &c = values[corners[2]];
   const float w = 1.0F - hit.u - hit.v;
@@ -21,6 +22,14 @@ std::array<float, 3> AtHit(const std::vector<std::array<float, 3>>& values,
 }
 
 }  // namespace
+
+std::vector<std::array<float, 3>> Surroundings::Surface::Positions() const {
+  if (coarse.vertices.empty()) return front->positions;
+  std::vector<std::array<float, 3>> positions;
+  positions.reserve(coarse.vertices.size());
+  for (const std::uint32_t vertex : coarse.vertices) positions.push_back(front->positions[vertex]);
+  return positions;
+}
 
 void Surroundings::SetDaylight(const sky::SkyModel& day, const Mat3& marker_from_world) {
   sky_.emplace(day, marker_from_world, kLandAlbedo);
@@ -32,7 +41,9 @@ Result<std::unique_ptr<RayScene>> Surroundings::RaysOf(std::span<const Surface> 
   std::vector<RayMesh> meshes;
   meshes.reserve(surfaces.size());
   for (const Surface& surface : surfaces) {
-    meshes.push_back({surface.front->positions, surface.front->indices, false});
+    meshes.push_back(
+        {surface.Positions(),
+         surface.coarse.vertices.empty() ? surface.front->indices : surface.coarse.indices, false});
   }
   return RayScene::Create(meshes, "scene");
 }
@@ -46,13 +57,15 @@ Result<void> Surroundings::SetStill(std::vector<Surface> surfaces) {
 Result<void> Surroundings::SetBodies(std::vector<Surface> surfaces) {
   PLEINAIR_ASSIGN_OR_RETURN(body_rays_, RaysOf(surfaces));
   bodies_ = std::move(surfaces);
+  gap_m_ = 0.0;
+  for (const Surface& body : bodies_) gap_m_ = std::max(gap_m_, body.coarse.gap_m);
   return {};
 }
 
 void Surroundings::MoveBodies() {
-  std::vector<const std::vector<std::array<float, 3>>*> positions;
+  std::vector<std::vector<std::array<float, 3>>> positions;
   positions.reserve(bodies_.size());
-  for (const Surface& body : bodies_) positions.push_back(&body.front->positions);
+  for (const Surface& body : bodies_) positions.push_back(body.Positions());
   body_rays_->SetPositions(positions);
 }
 
@@ -61,7 +74,9 @@ SeenAlongRay Surroundings::LightFrom(const Surface& surface, const RayHit& hit, 
   const LitMesh* side = hit.back ? surface.back : surface.front;
   if (side == nullptr) return {SeenAlongRay::What::kInside, {}, {}};
   SeenAlongRay seen{what, {}, {}};
-  const std::uint32_t* corners = &surface.front->indices[3 * std::size_t{hit.triangle}];
+  const std::size_t first = 3 * std::size_t{hit.triangle};
+  const std::array<std::uint32_t, 3> corners{surface.Corner(first), surface.Corner(first + 1),
+                                             surface.Corner(first + 2)};
   const std::array<float, 3> ambient = AtHit(side->ambient_with, corners, hit);
   const std::array<float, 3> reflected = AtHit(side->sunlight.reflected_with, corners, hit);
   const auto& positions = surface.front->positions;
@@ -72,7 +87,7 @@ SeenAlongRay Surroundings::LightFrom(const Surface& surface, const RayHit& hit, 
   LinearRgb sun;
   if (const double cosine = Dot(normal, to_sun_); cosine > 0.0 && Luminance(sun_lux_) > 0.0) {
     const Vec3 point = origin + direction * hit.distance_m + normal * kRayOffset_m;
-    if (!body_rays_->Occluded(RayTargets::kEverything, point, to_sun_) &&
+    if (!body_rays_->Occluded(RayTargets::kEverything, point + to_sun_ * gap_m_, to_sun_) &&
         !still_rays_->Occluded(RayTargets::kEverything, point, to_sun_)) {
       sun = sun_lux_ * cosine;
     }
@@ -85,6 +100,15 @@ SeenAlongRay Surroundings::LightFrom(const Surface& surface, const RayHit& hit, 
     seen.sunlight[c] = share * (reflected[c] + direct);
   }
   return seen;
+}
+
+bool Surroundings::SeesBody(Vec3 origin, Vec3 direction, RayHit* hit) const {
+  if (!body_rays_->Intersect(RayTargets::kEverything, origin + direction * gap_m_, direction,
+                             hit)) {
+    return false;
+  }
+  hit->distance_m += gap_m_;
+  return true;
 }
 
 SeenAlongRay Surroundings::Look(Vec3 origin, Vec3 direction) const {
@@ -106,7 +130,7 @@ SeenAlongRay Surroundings::Look(Vec3 origin, Vec3 direction) const {
 
 std::optional<SeenAlongRay> Surroundings::LookAtBodies(Vec3 origin, Vec3 direction) const {
   RayHit body, still;
-  if (!body_rays_->Intersect(RayTargets::kEverything, origin, direction, &body)) return {};
+  if (!SeesBody(origin, direction, &body)) return {};
   if (still_rays_->Intersect(RayTargets::kEverything, origin, direction, &still) &&
       still.distance_m < body.distance_m) {
     return {};

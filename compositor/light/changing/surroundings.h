@@ -2,9 +2,11 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -28,11 +30,28 @@ struct SeenAlongRay {
 /// between changes.
 class Surroundings {
  public:
+  /// Coarser triangles in place of those of a fine mesh. They are nearly the mesh, so that rays
+  /// from the mesh must not see them before `gap_m`.
+  struct Coarse {
+    std::vector<std::uint32_t> vertices;  ///< Of the mesh. Empty: its own triangles.
+    std::vector<std::uint32_t> indices;   ///< Three per triangle, of `vertices`.
+    double gap_m = 0.0;
+  };
+
   /// One side of a surface, or both.
   struct Surface {
     const LitMesh* front = nullptr;
     const LitMesh* back = nullptr;  ///< Null for a closed body.
     std::array<float, 3> albedo{};
+    Coarse coarse;
+
+    /// A corner of a triangle, as a vertex of the mesh.
+    std::uint32_t Corner(std::size_t index) const {
+      return coarse.vertices.empty() ? front->indices[index]
+                                     : coarse.vertices[coarse.indices[index]];
+    }
+    /// The vertices that rays see.
+    std::vector<std::array<float, 3>> Positions() const;
   };
 
   void SetDaylight(const sky::SkyModel& day, const Mat3& marker_from_world);
@@ -58,7 +77,11 @@ class Surroundings {
   SeenAlongRay LightFrom(const Surface& surface, const RayHit& hit, Vec3 origin, Vec3 direction,
                          SeenAlongRay::What what) const;
 
+  /// The nearest body along a ray.
+  bool SeesBody(Vec3 origin, Vec3 direction, RayHit* hit) const;
+
   std::vector<Surface> still_, bodies_;
+  double gap_m_ = 0.0;  // Of the bodies.
   std::unique_ptr<RayScene> still_rays_, body_rays_;
   std::optional<SkyTable> sky_;
   Vec3 to_sun_;
@@ -84,7 +107,7 @@ std::vector<Surroundings::Surface> PairedSides(std::span<const LitMesh> meshes,
       }
     }
     if (front->role == MeshRole::kRenderOnly) continue;
-    surfaces.push_back({front, back, albedo_of(*front)});
+    surfaces.push_back({front, back, albedo_of(*front), {}});
   }
   return surfaces;
 }
