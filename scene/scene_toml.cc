@@ -89,10 +89,9 @@ Result<std::vector<AnchorFacts>> ReadAnchors(const TomlTable& scene) {
 }
 
 Result<SceneFacts> ReadScene(const TomlTable& scene) {
-  PLEINAIR_RETURN_IF_ERROR(
-      scene.AllowOnly({"time", "cloudiness", "turbidity", "exposure_gain", "camera_response",
-                        "place", "marker", "anchor", "ground", "box", "wall", "phantom", "object",
-                        "leaf"}));
+  PLEINAIR_RETURN_IF_ERROR(scene.AllowOnly({"time", "cloudiness", "turbidity", "exposure_gain",
+                                            "camera_response", "place", "marker", "anchor",
+                                            "ground", "box", "wall", "phantom", "object", "leaf"}));
   SceneFacts facts;
   PLEINAIR_ASSIGN_OR_RETURN(facts.place_time.start, ReadTime(scene, "time"));
   PLEINAIR_ASSIGN_OR_RETURN(const std::vector<TomlTable> places, scene.Tables("place"));
