@@ -81,6 +81,11 @@ KnownLens AssumedLens(ImageSize size, const devices::FilmTags& tags, const std::
   return lens;
 }
 
+std::vector<std::string> FamiliesToLookFor(const std::optional<std::string>& wanted) {
+  if (wanted) return {*wanted};
+  return {session::kSgFamily, "tag36h11"};
+}
+
 Result<FilmLook> LookAt(const fs::path& file, const LookOptions& options) {
   PLEINAIR_ASSIGN_OR_RETURN(LookedAtFile opened, OpenLookedAtFile(file));
   FilmLook look{file, opened.is_photo, std::move(opened.tags), {}, 0, {}};
@@ -94,8 +99,7 @@ Result<FilmLook> LookAt(const fs::path& file, const LookOptions& options) {
         "use the calibration of this camera at this size");
   }
   tracker::TrackerOptions tracking;
-  tracking.families = options.family ? std::vector<std::string>{*options.family}
-                                     : std::vector<std::string>{session::kSgFamily, "tag36h11"};
+  tracking.families = FamiliesToLookFor(options.family);
   tracking.marker_size_m = 1.0;
   PLEINAIR_ASSIGN_OR_RETURN(const auto tracker, tracker::Tracker::Create(camera, tracking));
   look.frames = opened.frames->FrameCount().value_or(1);

@@ -44,6 +44,9 @@ struct FilmLook {
   std::vector<LookedAtFrame> looked_at;  ///< Spread evenly over all frames.
 };
 
+/// Families of the markers to look for: the wanted one, or "sg" and "tag36h11".
+std::vector<std::string> FamiliesToLookFor(const std::optional<std::string>& wanted);
+
 /// How to look.
 struct LookOptions {
   std::optional<KnownLens> lens;        ///< In place of AssumedLens().

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "app/project/first_picture.h"
+#include "app/project/lens_of_film.h"
 #include "app/project/project_folder.h"
 #include "app/project/scene_text.h"
 #include "app/terminal/interrupt.h"
@@ -46,6 +47,9 @@ Result<Footage> LookAtAll(const NewProjectRequest& request) {
   if (request.calibration) {
     PLEINAIR_ASSIGN_OR_RETURN(CameraModel camera, devices::ReadCalibration(*request.calibration));
     options.lens = KnownLens{camera, request.calibration->filename().string()};
+  } else if (!devices::IsImageFile(files.front())) {
+    PLEINAIR_ASSIGN_OR_RETURN(options.lens,
+                              LensOfFilm(files.front(), FamiliesToLookFor(options.family)));
   }
   Footage footage;
   PLEINAIR_ASSIGN_OR_RETURN(footage.film, LookAt(files.front(), options));
