@@ -385,7 +385,7 @@ TEST(SceneToml, RefusesImpossibleLeavesByLineAndKey) {
     return Refusal(std::string(kScene) + "[[leaf]]\nmaterials = [\"a\"]\n" + keys);
   };
   EXPECT_THAT(refusal("dry_g_cm2 = 20\n"),
-              AllOf(HasSubstr("scene.toml:37: dry_g_cm2 is 20: 0 to 0.05 g/cm²; milligrams?")));
+              AllOf(HasSubstr("scene.toml:38: dry_g_cm2 is 20: 0 to 0.05 g/cm²; milligrams?")));
   EXPECT_THAT(refusal("chlorophyll_ug_cm2 = nan\n"), HasSubstr("is not finite"));
   EXPECT_THAT(refusal("structure = 0.9\n"), HasSubstr("structure is 0.9: 1 to 4"));
   EXPECT_THAT(refusal("roughness = 0\n"), HasSubstr("\"roughness\" is 0: 0.05 to 1"));
@@ -397,7 +397,7 @@ TEST(SceneToml, RefusesImpossibleLeavesByLineAndKey) {
   EXPECT_THAT(refusal("[[leaf.stage]]\ndate = 2025-02-01\n[[leaf.stage]]\ndate = 2025-01-01\n"),
               HasSubstr("is not after that of the stage before"));
   EXPECT_THAT(Refusal(std::string(kScene) + "[[leaf]]\nbrown = 1\n"),
-              HasSubstr("scene.toml:35: the table names no materials"));
+              HasSubstr("scene.toml:36: the table names no materials"));
 }
 
 }  // namespace

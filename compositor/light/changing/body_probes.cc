@@ -109,7 +109,7 @@ Surroundings::Coarse BodyProbes::CoarseTriangles(std::size_t drawn) const {
       corners[k] = groups.patch_of[side.surface->indices[i + k]];
     }
     if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) continue;
-    std::ranges::rotate(corners, std::ranges::min_element(corners));
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
     if (!known.insert(corners).second) continue;
     coarse.indices.insert(coarse.indices.end(), corners.begin(), corners.end());
     length_m += Norm(WideVector(positions[coarse.vertices[corners[0]]]) -

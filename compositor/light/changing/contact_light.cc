@@ -65,11 +65,12 @@ void ContactLight::FollowBodies(std::span<const LitMesh> bodies, double moved_m)
     }
   }
   const double next_m = bodies_.radius_m + kNext_m + kListMargin_m;
-  const auto far_off = std::ranges::stable_partition(near_, [&](const Place& place) {
+  const auto far_off = std::stable_partition(near_.begin(), near_.end(), [&](const Place& place) {
     return Norm(VectorOf(still_[place.mesh].positions[place.vertex]) - bodies_.centre) < next_m;
   });
-  turns_[0] = {0, near_.size() - far_off.size(), 0};
-  turns_[1] = {near_.size() - far_off.size(), far_off.size(), 0};
+  const auto close = static_cast<std::size_t>(far_off - near_.begin());
+  turns_[0] = {0, close, 0};
+  turns_[1] = {close, near_.size() - close, 0};
 }
 
 void ContactLight::Refresh(const Surroundings& surroundings, std::size_t vertices) {

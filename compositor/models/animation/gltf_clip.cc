@@ -197,7 +197,7 @@ std::vector<double> GltfClip::Spline(const Keys& keys, std::size_t key, double t
 }
 
 std::vector<double> GltfClip::Evaluate(const Keys& keys, double time_s) {
-  const auto after = std::ranges::upper_bound(keys.times_s, time_s);
+  const auto after = std::upper_bound(keys.times_s.begin(), keys.times_s.end(), time_s);
   const auto copy = [&](std::size_t key) {
     return std::vector<double>(keys.At(key), keys.At(key) + keys.width);
   };

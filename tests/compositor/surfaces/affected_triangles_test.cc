@@ -30,6 +30,13 @@ LitMesh Row() {
   return mesh;
 }
 
+/// The same of a virtual object.
+LitMesh ObjectRow() {
+  LitMesh mesh = Row();
+  mesh.ambient_without.clear();
+  return mesh;
+}
+
 // A square of 1 m perpendicular to a sun overhead, from x = 0.9 m on.
 const SunWindow kWindow{{1.0F, 0.0F, 0.0F, -0.9F}, {0.0F, 1.0F, 0.0F, 0.0F}, 1.0F, {0, 0, 1}};
 
@@ -149,7 +156,7 @@ TEST(AffectedTriangles, AreAllWhereAnObjectLiesNobodyKnowsWhere) {
 }
 
 TEST(SunFacingTriangles, LeaveThoseTurnedAwayFromTheSunToTheEnd) {
-  LitMesh mesh = Row();
+  LitMesh mesh = ObjectRow();
   for (int i = 3; i < 6; ++i) mesh.normals[i] = {0.0F, 0.0F, -1.0F};
   mesh.normals[9] = {0.0F, 0.0F, -1.0F};  // One corner of the last: part of it may face the sun.
   SunFacingTriangles triangles(mesh);
@@ -162,7 +169,7 @@ TEST(SunFacingTriangles, LeaveThoseTurnedAwayFromTheSunToTheEnd) {
 }
 
 TEST(SunFacingTriangles, AreAllUntilTheyAreSortedAgain) {
-  LitMesh mesh = Row();
+  LitMesh mesh = ObjectRow();
   for (std::size_t i = 0; i < 3; ++i) mesh.normals[i] = {0.0F, 0.0F, -1.0F};
   SunFacingTriangles triangles(mesh);
   EXPECT_FALSE(triangles.IncludeAll());
@@ -175,7 +182,7 @@ TEST(SunFacingTriangles, AreAllUntilTheyAreSortedAgain) {
 }
 
 TEST(SunFacingTriangles, HoldWhileTheSunMovesLessThanTheirMargin) {
-  LitMesh mesh = Row();
+  LitMesh mesh = ObjectRow();
   mesh.normals[0] = mesh.normals[1] = mesh.normals[2] = {0.999F, 0.0F, -0.045F};
   SunFacingTriangles triangles(mesh);
   triangles.Sort({0.0F, 0.0F, 1.0F});
@@ -187,7 +194,7 @@ TEST(SunFacingTriangles, HoldWhileTheSunMovesLessThanTheirMargin) {
 }
 
 TEST(VisibilityBuffer, TellsPiecesThatDoNotHangTogetherApart) {
-  LitMesh mesh = Row();
+  LitMesh mesh = ObjectRow();
   mesh.indices = {0, 1, 2, 2, 1, 3, 6, 7, 8, 4, 8, 5};
   EXPECT_THAT(ComponentsOf(mesh, 7), ElementsAre(7, 7, 7, 7, 8, 8, 8, 8, 8, 9, 10, 11));
 }

@@ -48,6 +48,7 @@ class Scene {
                                     SunVisibility::kSome};
     reduction_.AddPhantom(phantom);
     LitMesh object = Row(2, 1.0F);
+    object.ambient_without.clear();
     object.positions[3] = object.positions[4] = object.positions[5] = object.positions[0];
     for (std::size_t i = 3; i < 6; ++i) object.normals[i] = {0.0F, 0.0F, -1.0F};
     reduction_.AddObject(object);

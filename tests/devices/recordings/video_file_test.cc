@@ -147,11 +147,11 @@ TEST_F(Video, EmptyMissingOrSenselessFilesAreNamed) {
   EXPECT_THAT(ReadAll(OpenRecording(folder_ / "none.mp4", options_)), HasSubstr("none.mp4"));
 }
 
-TEST_F(Video, SizeMustBeTheCalibrations) {
+TEST_F(Video, ShapeMustBeTheCalibrations) {
   options_.calibration =
-      folder_.Write("other.yaml", tests::Replaced(kLens, "[160, 120]", "[320, 240]"));
+      folder_.Write("other.yaml", tests::Replaced(kLens, "[160, 120]", "[320, 200]"));
   EXPECT_THAT(ReadAll(OpenRecording(folder_ / "film.mp4", options_)),
-              AllOf(HasSubstr("160x120"), HasSubstr("320x240")));
+              AllOf(HasSubstr("160x120"), HasSubstr("320x200")));
 }
 
 TEST_F(Video, DecodesToTheSameBytesTwice) {
