@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <map>
 #include <memory>
 #include <utility>
 
+#include "app/calibrate/film_lens.h"
 #include "devices/images/image_file.h"
 #include "devices/recordings/image_sequence.h"
 #include "devices/recordings/video_file.h"
@@ -61,7 +61,6 @@ std::size_t CountOfLooks(ImageSize size) {
 
 KnownLens AssumedLens(ImageSize size, const devices::FilmTags& tags, const std::string& file) {
   constexpr double kPhone_mm = 26.0;  // Main cameras of phones have 23 to 28 mm.
-  constexpr double kDiagonal35_mm = 43.27;
   KnownLens lens;
   const double focal_mm = tags.focal_length_35mm.value_or(kPhone_mm);
   lens.from = tags.focal_length_35mm ? fmt::format(
@@ -75,7 +74,7 @@ KnownLens AssumedLens(ImageSize size, const devices::FilmTags& tags, const std::
   CameraModel& camera = lens.camera;
   camera.width = size.width;
   camera.height = size.height;
-  camera.fx = camera.fy = focal_mm / kDiagonal35_mm * std::hypot(size.width, size.height);
+  camera.fx = camera.fy = FocalFrom35mm(focal_mm, size);
   camera.cx = 0.5 * (size.width - 1);
   camera.cy = 0.5 * (size.height - 1);
   return lens;

@@ -22,10 +22,9 @@ struct KnownLens {
 };
 
 /// The lens of images of this size: from the focal length in the tags, else that of a usual phone,
-/// 26 mm on 35 mm film. The tags' focal length has the angle of view of a 43.27 mm diagonal (CIPA
-/// DCG-001), so that fx = fy = f / 43.27 mm x the image's diagonal in pixels. The centre is that of
-/// the image, without distortion. `file` is the name in `from`. A film is often a crop of what the
-/// tags describe: the error is 5 to 20 %.
+/// 26 mm on 35 mm film (FocalFrom35mm()). The centre is that of the image, without distortion.
+/// `file` is the name in `from`. A film is often a crop of what the tags describe: the error is 5
+/// to 20 %.
 KnownLens AssumedLens(ImageSize size, const devices::FilmTags& tags, const std::string& file);
 
 /// The markers of one frame, with the edge of each marker as the unit of length.
