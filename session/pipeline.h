@@ -112,6 +112,7 @@ class Pipeline {
   /// All observations of each marker so far.
   const MarkerTracks& tracks() const { return tracks_; }
 
+  bool has_anchors() const { return !scene_.anchors.empty(); }
   /// After the last frame of a recording: finds the trajectory by all markers of a scene with
   /// anchors. Does nothing for other scenes.
   void FollowAnchors();

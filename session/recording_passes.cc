@@ -154,10 +154,12 @@ Result<void> TrackRecording(Pipeline& pipeline, devices::Recording recording,
   pass.times().Add(measuring_times);
   pass.times().Add(frames.Finish());
   if (done == 0) return InputError(name, "holds no frames", "record it again");
-  pass.times().Measure("follow anchors", [&] {
-    pipeline.FollowAnchors();
-    return 0;
-  });
+  if (pipeline.has_anchors()) {
+    pass.times().Measure("follow anchors", [&] {
+      pipeline.FollowAnchors();
+      return 0;
+    });
+  }
   return {};
 }
 
