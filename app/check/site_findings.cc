@@ -24,8 +24,9 @@ constexpr double kBlurred = 0.03;
 constexpr double kExposureChange = 1.3;
 
 double MedianBy(const std::vector<FrameFacts>& frames, double FrameFacts::*member) {
-  std::vector<double> values;
-  for (const FrameFacts& frame : frames) values.push_back(frame.*member);
+  std::vector<double> values(frames.size());
+  std::transform(frames.begin(), frames.end(), values.begin(),
+                 [member](const FrameFacts& frame) { return frame.*member; });
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;

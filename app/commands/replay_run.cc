@@ -184,7 +184,7 @@ Result<void> RunSeveral(const ReplayArguments& arguments) {
     one.paths.recording = arguments.paths.recordings[i];
     one.paths.output = (std::filesystem::path(arguments.paths.output) / names[i]).string();
     ++tried;
-    const Result<void> done = Run(one);
+    Result<void> done = Run(one);
     if (done) continue;
     if (InterruptGuard::Interrupted()) return done;
     ++failed;
