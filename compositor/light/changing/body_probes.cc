@@ -19,6 +19,8 @@ using Float3 = std::array<float, 3>;
 // Probes of all bodies: enough for the light on a body, few enough to refresh them in some frames.
 constexpr std::size_t kMaxProbes = 2048;
 constexpr std::size_t kProbesPerBlock = 8, kLitVerticesPerBlock = 2048;
+// Triangles of a surface that rays see as they are: they take about 4 ms to refit.
+constexpr std::size_t kMaxFineTriangles = 12'000;
 // Effective rays of a probe at rest, and of one that moves. 16 rays have a standard deviation of
 // 12 % of the full light at worst, 512 of 2 %.
 constexpr float kMaxRaysAtRest = 512.0F, kMaxRaysMoving = 48.0F;
@@ -86,7 +88,7 @@ void BodyProbes::AddSide(Side side, std::size_t probes) {
 Surroundings::Coarse BodyProbes::CoarseTriangles(std::size_t drawn) const {
   const Side& side = sides_[drawn];
   Surroundings::Coarse coarse;
-  if (!side.groups) return coarse;
+  if (!side.groups || side.surface->indices.size() <= 3 * kMaxFineTriangles) return coarse;
   const SurfacePatches& groups = *side.groups;
   const std::vector<Float3>& positions = side.surface->positions;
   std::uint32_t first = 0;

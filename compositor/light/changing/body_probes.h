@@ -30,8 +30,8 @@ class BodyProbes {
   void Refresh(const Surroundings& surroundings, std::size_t probes);
   std::size_t size() const { return probes_.size(); }
 
-  /// One triangle per three patches that meet, for rays. Empty if the vertices of a mesh of
-  /// ChangingMesh::DrawnMeshes() are probes of their own.
+  /// One triangle per three patches that meet, for rays. Empty for a mesh of
+  /// ChangingMesh::DrawnMeshes() with few triangles.
   Surroundings::Coarse CoarseTriangles(std::size_t drawn) const;
 
   /// Sets the light of the meshes of ChangingMesh::DrawnMeshes(), of all bodies in order.
