@@ -18,8 +18,8 @@ Leaf LeafAt(const LeafDescription& description, UtcTime time) {
   }
   const LeafStage& before = *(later - 1);
   const auto since = [&](UtcTime then) {
-    return static_cast<double>(then.nanoseconds_since_1970() -
-                               before.date.nanoseconds_since_1970());
+    return static_cast<double>(then.nanoseconds_since_1970()) -
+           static_cast<double>(before.date.nanoseconds_since_1970());
   };
   const double share = since(time) / since(later->date);
   for (const LeafQuantity& quantity : kLeafQuantities) {

@@ -37,7 +37,9 @@ bool ReplaceFitting(const std::string& pattern, const compositor::LeafSurface& l
     std::shared_ptr<compositor::Model> changed;
     for (std::size_t i = 0; i < object.model->materials.size(); ++i) {
       const std::string& name = object.model->materials[i].name;
-      if (name.empty() || fnmatch(pattern.c_str(), name.c_str(), 0) != 0) continue;
+      if (name.empty()) continue;
+      // Names may hold brackets, which a pattern would take for a set of letters.
+      if (pattern != name && fnmatch(pattern.c_str(), name.c_str(), FNM_NOESCAPE) != 0) continue;
       if (!changed) changed = std::make_shared<compositor::Model>(*object.model);
       compositor::ApplyMappedLeaf(leaf, maps, static_cast<int>(i), changed.get());
     }

@@ -147,11 +147,19 @@ Result<void> CheckUseOfLeafOptions(const CLI::App& command, const LeafCommandOpt
                                        {"--water", single && !plate, "the model prospect-d"}});
 }
 
+Result<void> CheckIsNotInput(const std::filesystem::path& input,
+                             const std::filesystem::path& output) {
+  std::error_code error;
+  if (!std::filesystem::equivalent(input, output, error) || error) return {};
+  return InputError(output.string(), "is the input, and would be overwritten", "name another file");
+}
+
 Result<void> RunLeafTable(const LeafCommandOptions& options, NanometreRange nm) {
   PLEINAIR_ASSIGN_OR_RETURN(const std::string text, files::ReadTextFile(options.csv));
   PLEINAIR_ASSIGN_OR_RETURN(const std::vector<NamedLeaf> leaves,
                             ParseLeafTable(text, files::TextFileName(options.csv)));
   if (!options.spectra.empty()) {
+    PLEINAIR_RETURN_IF_ERROR(CheckIsNotInput(options.csv, options.spectra));
     PLEINAIR_RETURN_IF_ERROR(WriteLeafSpectra(leaves, options.spectra, nm.first, nm.last));
   }
   return WriteLeafColors(leaves, options.json);
@@ -160,18 +168,21 @@ Result<void> RunLeafTable(const LeafCommandOptions& options, NanometreRange nm) 
 Result<void> RunLeaf(const CLI::App& command, const LeafCommandOptions& options) {
   PLEINAIR_RETURN_IF_ERROR(CheckUseOfLeafOptions(command, options));
   PLEINAIR_ASSIGN_OR_RETURN(const NanometreRange nm, ParseNanometres(options.nm));
+  if (options.spectra == "-") {
+    return InputError("--spectra", "cannot be standard output", "name a file");
+  }
   if (!options.csv.empty()) return RunLeafTable(options, nm);
   PLEINAIR_ASSIGN_OR_RETURN(const scene::Leaf leaf, ChosenLeaf(options));
   if (!options.output.empty() && std::filesystem::path(options.output).extension() != ".png") {
     return InputError(options.output, "is not the name of a PNG picture",
                       "name a file that ends in .png");
   }
+  if (!options.output.empty()) {
+    PLEINAIR_RETURN_IF_ERROR(exports::WritePng(options.output, LeafSwatch(leaf).view()));
+  }
   if (!options.spectra.empty()) {
     PLEINAIR_RETURN_IF_ERROR(
         WriteLeafSpectra({{"leaf", leaf}}, options.spectra, nm.first, nm.last));
-  }
-  if (!options.output.empty()) {
-    PLEINAIR_RETURN_IF_ERROR(exports::WritePng(options.output, LeafSwatch(leaf).view()));
   }
   std::cout << (options.json ? LeafJson({"", leaf}) + "\n" : LeafText(leaf));
   return {};
@@ -202,6 +213,7 @@ void AddLeafFitCommand(CLI::App* leaf, CommandResult* result) {
       "from 0 to 1. Rows outside 400 to 2500 nm are left out.\n");
   command->add_option("SPECTRUM", options->spectrum, "CSV table; - is standard input")->required();
   command->add_flag("--json", options->json, "One JSON object");
+  RefuseEmptyValues(*command);
   command->callback([options, result] { result->status = RunLeafFit(*options); });
 }
 
@@ -227,6 +239,9 @@ Result<void> RunLeafMaps(const LeafMapsOptions& options) {
     return SystemError(options.folder, "cannot be made: " + error.message(), "name another folder");
   }
   const fs::path folder(options.folder);
+  for (const char* name : {"pigment.png", "gloss.png", "thickness.png"}) {
+    PLEINAIR_RETURN_IF_ERROR(CheckIsNotInput(options.structure, folder / name));
+  }
   PLEINAIR_RETURN_IF_ERROR(exports::WritePng(folder / "pigment.png", maps.pigment.view()));
   PLEINAIR_RETURN_IF_ERROR(exports::WritePng(folder / "gloss.png", RgbOfGrey(maps.gloss).view()));
   return exports::WritePng(folder / "thickness.png", RgbOfGrey(maps.thickness).view());
@@ -248,6 +263,7 @@ void AddLeafMapsCommand(CLI::App* leaf, CommandResult* result) {
   command->add_option("-o,--output", options->folder, "Folder for the maps")
       ->type_name("DIR")
       ->required();
+  RefuseEmptyValues(*command);
   command->callback([options, result] { result->status = RunLeafMaps(*options); });
 }
 

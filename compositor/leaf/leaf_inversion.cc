@@ -164,7 +164,10 @@ void EstimateDeviations(const SpectrumResiduals& residuals, const DeterminedUnkn
     const auto unknown = static_cast<std::size_t>(columns[static_cast<std::size_t>(i)]);
     const double deviation =
         std::sqrt(variance * inverse(i, i)) * scene::kLeafQuantities[unknown].high;
-    if (std::isfinite(deviation)) fit->deviations[unknown] = deviation;
+    // A content that is uncertain by its whole range is not determined.
+    if (std::isfinite(deviation) && deviation < scene::kLeafQuantities[unknown].high) {
+      fit->deviations[unknown] = deviation;
+    }
   }
 }
 
@@ -179,11 +182,11 @@ constexpr std::array<scene::LeafContents, 4> kStarts = {{
 }  // namespace
 
 Result<LeafFit> FitLeaf(const MeasuredSpectrum& spectrum, const std::string& where) {
-  if (spectrum.wavelength_nm.size() < kMinFittedBands) {
-    return InputError(
-        where,
-        "has " + std::to_string(spectrum.wavelength_nm.size()) + " wavelengths from 400 to 2500 nm",
-        "give at least " + std::to_string(kMinFittedBands));
+  const std::set<double> distinct(spectrum.wavelength_nm.begin(), spectrum.wavelength_nm.end());
+  if (distinct.size() < kMinFittedBands) {
+    return InputError(where,
+                      "has " + std::to_string(distinct.size()) + " wavelengths from 400 to 2500 nm",
+                      "give at least " + std::to_string(kMinFittedBands));
   }
   const SpectrumResiduals residuals(spectrum);
   DeterminedUnknowns used{};

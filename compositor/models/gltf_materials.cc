@@ -232,13 +232,22 @@ class MaterialReader {
     return ReadTransmission(source, material);
   }
 
+  /// Share of a surface that is no metal; its texture counts by its mean.
+  Result<float> NotMetal(const tinygltf::Material& source, const Material& material) {
+    if (material.metallic_roughness_texture < 0) return 1.0F - material.metallic;
+    PLEINAIR_ASSIGN_OR_RETURN(const auto means,
+                              MeansOf(source.pbrMetallicRoughness.metallicRoughnessTexture.index));
+    return 1.0F - material.metallic * means[2];
+  }
+
   /// A thin sheet hides what it does not transmit; it transmits its base color's luminance.
   Result<void> ReadTransmission(const tinygltf::Material& source, Material* material) {
     PLEINAIR_ASSIGN_OR_RETURN(
         const float mean, MeanOf(source, "KHR_materials_transmission", "transmissionTexture", 0));
+    PLEINAIR_ASSIGN_OR_RETURN(const float not_metal, NotMetal(source, *material));
     const double factor =
         mean * Clamped(NumberOf(source, "KHR_materials_transmission", "transmissionFactor", 0.0)) *
-        (1.0 - material->metallic);
+        not_metal;
     if (factor <= 0.0) return {};
     const auto& [r, g, b] = material->base_color;
     const double hidden = 1.0 - factor * kPaneTransmittance * Luminance(LinearRgb{r, g, b});
@@ -254,9 +263,14 @@ class MaterialReader {
     constexpr const char* kName = "KHR_materials_diffuse_transmission";
     PLEINAIR_ASSIGN_OR_RETURN(const float mean,
                               MeanOf(source, kName, "diffuseTransmissionTexture", 3));
-    const float factor = mean * Clamped(NumberOf(source, kName, "diffuseTransmissionFactor", 0.0)) *
-                         (1.0F - material->metallic);
+    PLEINAIR_ASSIGN_OR_RETURN(const float not_metal, NotMetal(source, *material));
+    const float factor =
+        mean * not_metal * Clamped(NumberOf(source, kName, "diffuseTransmissionFactor", 0.0));
     if (factor <= 0.0F) return {};
+    if (material->detail.emission.texture >= 0) {  // One texture unit serves both.
+      material->unsupported_features.insert(kTransmissionBesideEmission);
+      return {};
+    }
     DiffuseTransmission& transmission = material->detail.transmission;
     transmission.color =
         ColorOf(source, kName, "diffuseTransmissionColorFactor", {1.0F, 1.0F, 1.0F});
@@ -276,8 +290,8 @@ class MaterialReader {
       info.extensions["KHR_texture_transform"] = extensions.Get("KHR_texture_transform");
     }
     const auto coordinates = CoordinatesIn(uvs, UvMapOf(info));
-    if (!coordinates || material->detail.emission.texture >= 0) {
-      material->unsupported_features.insert(coordinates ? kTransmissionBesideEmission : kThirdSet);
+    if (!coordinates) {
+      material->unsupported_features.insert(kThirdSet);
       return {};
     }
     PLEINAIR_ASSIGN_OR_RETURN(transmission.texture, Texture(info.index));

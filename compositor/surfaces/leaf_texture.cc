@@ -32,14 +32,14 @@ Result<void> ReadMapInto(const std::filesystem::path& file, const LeafImage& lik
                     "give the maps of a leaf one size");
 }
 
-/// Codes of a texel, 6 bits each.
+/// Codes of a texel: 6 bits for each pigment, 8 for the thickness.
 std::uint32_t TexelKey(const LeafMapImages& maps, int x, int y) {
   const auto code = [](int value) { return static_cast<std::uint32_t>((value * 63 + 127) / 255); };
   std::uint32_t key = 0;
   for (int c = 0; c < 3; ++c) {
     key = key << 6U | (maps.pigment.empty() ? 63U : code(maps.pigment(x, y, c)));
   }
-  return key << 6U | (maps.thickness.empty() ? 0U : code(maps.thickness(x, y)));
+  return key << 8U | (maps.thickness.empty() ? 0U : maps.thickness(x, y));
 }
 
 struct TexelColors {
@@ -48,12 +48,13 @@ struct TexelColors {
 
 TexelColors ColorsOfTexel(const LeafSurface& leaf, const LeafMapImages& maps, std::uint32_t key) {
   const auto share = [&](unsigned shift) { return static_cast<double>(key >> shift & 63U) / 63.0; };
-  const double thickness = maps.thickness.empty() ? 1.0 : share(0) * 255.0 / kThicknessCodeOfOne;
+  const double thickness =
+      maps.thickness.empty() ? 1.0 : (key & 255U) / static_cast<double>(kThicknessCodeOfOne);
   LeafSurface texel = leaf;
   scene::LeafContents& contents = texel.leaf.contents;
-  contents.chlorophyll_ug_cm2 *= share(18) * thickness;
-  contents.carotenoids_ug_cm2 *= share(12) * thickness;
-  contents.brown *= share(6) * thickness;
+  contents.chlorophyll_ug_cm2 *= share(20) * thickness;
+  contents.carotenoids_ug_cm2 *= share(14) * thickness;
+  contents.brown *= share(8) * thickness;
   contents.anthocyanins_ug_cm2 *= thickness;
   contents.water_cm *= thickness;
   contents.dry_g_cm2 *= thickness;

@@ -119,10 +119,25 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"Range", {"--spectra", "OUT/a.csv", "--nm", "300..500"}, "within 400..2500"},
         Refusal{"SpectrumOfAPlate", {"--model", "plate", "--spectra", "OUT/a.csv"}, "no spectrum"},
         Refusal{"Picture", {"-o", "OUT/leaf.gif"}, "is not the name of a PNG picture"},
+        Refusal{"SpectraToOutput", {"--spectra", "-"}, "cannot be standard output"},
+        Refusal{"EmptyName", {"fit", ""}, "SPECTRUM"},
         Refusal{"NoTable", {"--csv", "OUT/none.csv"}, "none.csv: cannot read"},
         Refusal{"NoSpectrum", {"fit", "OUT/none.csv"}, "none.csv: cannot read"},
         Refusal{"NoStructure", {"maps", "OUT/none.png", "-o", "OUT/maps"}, "none.png"}),
     [](const auto& refusal) { return std::string(refusal.param.name); });
+
+TEST(Leaf, NeverOverwritesItsInput) {
+  const TemporaryFolder folder;
+  const cv::Mat structure(8, 16, CV_8UC3, cv::Scalar(255, 0, 0));
+  cv::imwrite(folder / "pigment.png", structure);
+  const std::string before = ReadFile(folder / "pigment.png");
+  ExpectRefused(RunPleinair({"leaf", "maps", folder / "pigment.png", "-o", folder / "."}),
+                "would be overwritten");
+  EXPECT_EQ(ReadFile(folder / "pigment.png"), before);
+  WriteFile(folder / "a.csv", "name,chlorophyll_ug_cm2\na,40\n");
+  ExpectRefused(RunPleinair({"leaf", "--csv", folder / "a.csv", "--spectra", folder / "a.csv"}),
+                "would be overwritten");
+}
 
 TEST(Leaf, NamesTheLineOfABrokenTable) {
   const TemporaryFolder folder;
