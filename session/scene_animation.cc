@@ -10,8 +10,9 @@ namespace {
 double SecondsBetween(UtcTime from, UtcTime to) {
   constexpr std::int64_t kSecond_ns = 1'000'000'000;
   const std::int64_t a = from.nanoseconds_since_1970(), b = to.nanoseconds_since_1970();
-  return static_cast<double>(b / kSecond_ns - a / kSecond_ns) +
-         static_cast<double>(b % kSecond_ns - a % kSecond_ns) * 1e-9;
+  const std::int64_t seconds = b / kSecond_ns - a / kSecond_ns;
+  const std::int64_t rest_ns = b % kSecond_ns - a % kSecond_ns;
+  return static_cast<double>(seconds) + static_cast<double>(rest_ns) * 1e-9;
 }
 
 }  // namespace

@@ -150,15 +150,17 @@ void BodyProbes::Trace(const Surroundings& surroundings, std::size_t index) {
   std::uint32_t open = 0, outside = 0;
   const std::uint32_t seed = Hash(static_cast<std::uint32_t>(index), probe.round);
   for (std::uint32_t i = 0; i < kRays; ++i) {
-    const std::uint32_t vertex =
-        members[(i * members.size() / kRays + probe.round) % members.size()];
+    const std::size_t at = i * members.size() / kRays;
+    const std::uint32_t vertex = members[(at + probe.round) % members.size()];
     const Vec3 position = WideVector(surface.positions[vertex]);
     const Vec3 normal = WideVector(surface.normals[vertex]) * (side.back ? -1.0 : 1.0);
     Vec3 centre;
     const std::uint32_t* corners = &surface.indices[(*side.first_corners)[vertex]];
     for (int k = 0; k < 3; ++k) centre = centre + WideVector(surface.positions[corners[k]]);
-    place = place + position;
-    mean_normal = mean_normal + normal;
+    // The same members in each round, so that only movement moves the mean.
+    const std::uint32_t still = members[at];
+    place = place + WideVector(surface.positions[still]);
+    mean_normal = mean_normal + WideVector(surface.normals[still]) * (side.back ? -1.0 : 1.0);
     const Vec3 direction = CosineDirection(TangentFrame(normal), ShiftedHammersley(i, kRays, seed));
     const SeenAlongRay seen =
         surroundings.Look(GatherOrigin({position, normal, {}}, centre * (1.0 / 3.0)), direction);

@@ -127,7 +127,13 @@ Result<GltfRig::Part> GltfRig::ReadPart(const tinygltf::Model& gltf, const GltfP
     PLEINAIR_ASSIGN_OR_RETURN(part.rest.normals, ReadGltfFloats<3>(gltf, normal->second, where));
   }
   const std::vector<double>& own = gltf.meshes[static_cast<std::size_t>(node.mesh)].weights;
-  part.weights.assign(own.begin(), own.end());
+  const std::size_t targets = std::min(own.size(), primitive.targets.size());
+  part.weights.assign(own.begin(), own.begin() + static_cast<std::ptrdiff_t>(targets));
+  // Targets may be empty, and nodes share meshes: their number counts too.
+  *morph_vectors += primitive.targets.size();
+  if (*morph_vectors > kMaxVertices) {
+    return GltfError(where, "its morph targets have more than 20 million vectors");
+  }
   for (const auto& target : primitive.targets) {
     MeshShape& shape = part.targets.emplace_back();
     for (const auto& [name, values] :
@@ -189,6 +195,7 @@ Result<void> GltfRig::SetVertices(NormalsMode mode, std::vector<VertexSources> s
       alone.meshes[0].indices = part.indices;
       SmoothNormals(&alone);
       part.rest.normals = std::move(alone.meshes[0].normals);
+      part.normals_of_triangles = true;
     }
     part.indices.clear();
   }
@@ -286,9 +293,10 @@ MeshShape GltfRig::ShapeOf(const Part& part, const std::vector<float>& weights,
       // By the cofactors, which turn normals rightly whatever the scales.
       const auto& [a, b, c] = map;
       const auto [u, v, w] = shape.normals[i];
-      const float sign = a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
-                                     a[2] * (b[0] * c[1] - b[1] * c[0]) <
-                                 0.0F
+      const float sign = !part.normals_of_triangles && a[0] * (b[1] * c[2] - b[2] * c[1]) +
+                                                               a[1] * (b[2] * c[0] - b[0] * c[2]) +
+                                                               a[2] * (b[0] * c[1] - b[1] * c[0]) <
+                                                           0.0F
                              ? -1.0F
                              : 1.0F;
       const float nx = u * (b[1] * c[2] - b[2] * c[1]) + v * (b[2] * c[0] - b[0] * c[2]) +

@@ -65,6 +65,9 @@ class GltfRig : public ModelAnimation {
     std::size_t node = 0;
     int skin = -1;
     MeshShape rest;  ///< As in the file; normals may be empty.
+    /// Normals averaged over triangles, whose corners Place() turned where it mirrors them: their
+    /// cofactors need no sign.
+    bool normals_of_triangles = false;
     std::vector<std::uint32_t> indices;
     std::vector<MeshShape> targets;     ///< Differences from `rest`; either may be empty.
     std::vector<float> weights;         ///< Of the targets, where the node has none.
