@@ -128,11 +128,12 @@ Result<PlaceTime> CompletePlaceTime(const PlaceTimeFacts& facts, const std::stri
   return PlaceTime{*facts.latitude_deg, *facts.longitude_deg, height_m, *facts.start};
 }
 
+constexpr const char* kOurFamily = "sg";  // Of markers beside anchors, if nothing is stated.
+
 Result<std::vector<AnchorDescription>> CompleteAnchors(const std::vector<AnchorFacts>& facts,
                                                        const MarkerDescription& marker,
                                                        const std::string& name) {
   constexpr std::size_t kMaxAnchors = 64;
-  constexpr const char* kOurFamily = "sg";
   std::vector<AnchorDescription> anchors;
   if (facts.empty()) return anchors;
   if (marker.target || !marker.id) {
@@ -297,6 +298,8 @@ Result<SceneDescription> CompleteScene(const SceneFacts& facts, const std::files
   PLEINAIR_ASSIGN_OR_RETURN(scene.place_time, CompletePlaceTime(facts.place_time, name));
   PLEINAIR_ASSIGN_OR_RETURN(scene.marker, CompleteMarker(facts.marker, scene.place_time, name));
   PLEINAIR_ASSIGN_OR_RETURN(scene.anchors, CompleteAnchors(facts.anchors, scene.marker, name));
+  // Otherwise an anchor of another family with the same number could pass for the marker.
+  if (!scene.anchors.empty() && !scene.marker.family) scene.marker.family = kOurFamily;
   if (scene.marker.target) {
     scene.marker.target = (file.parent_path() / *scene.marker.target).lexically_normal();
   }

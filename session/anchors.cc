@@ -100,7 +100,8 @@ AnchoredPath FollowAnchors(const CameraModel& camera, const scene::SceneDescript
     const bool alone = here.source == PoseSource::kMarker && film.frames[i].size() == 1;
     if (!alone) {
       const auto pose = tracker::FitAnchoredPose(camera, markers, film.frames[i]);
-      if (!pose) continue;
+      // Anchors that contradict it do not take the reference marker's own pose away.
+      if (!pose && here.source != PoseSource::kMarker) continue;
       here.camera_from_marker = pose->camera_from_reference;
       here.reprojection_rms_px = pose->reprojection_rms_px;
     }

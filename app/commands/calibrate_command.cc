@@ -291,6 +291,10 @@ Result<void> CheckMarkerOptions(const CalibrateOptions& options) {
   for (const auto& [name, given] : for_boards) {
     if (given) return InputError(name, "is for boards, not for --marker", "leave one of them out");
   }
+  if (options.views && *options.views < static_cast<int>(tracker::kMinMarkerViews)) {
+    return InputError("--views", "is fewer than the views that a marker needs",
+                      "give " + std::to_string(tracker::kMinMarkerViews) + " or more");
+  }
   return {};
 }
 

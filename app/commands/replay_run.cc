@@ -173,6 +173,16 @@ Result<void> Run(ReplayArguments& arguments) {
 }
 
 /// Composes several recordings. One that fails is reported, and the others are composed.
+/// Run() whose exceptions end no other recording's replay.
+Result<void> RunAlone(ReplayArguments& arguments) {
+  try {
+    return Run(arguments);
+  } catch (const std::exception& error) {
+    return SystemError(arguments.paths.recording, std::string("replay failed: ") + error.what(),
+                       "please report it with the recording");
+  }
+}
+
 Result<void> RunSeveral(const ReplayArguments& arguments) {
   PLEINAIR_ASSIGN_OR_RETURN(const Shard shard, ParseShard(arguments.shard));
   PLEINAIR_ASSIGN_OR_RETURN(const std::vector<std::string> names,
@@ -184,9 +194,11 @@ Result<void> RunSeveral(const ReplayArguments& arguments) {
     one.paths.recording = arguments.paths.recordings[i];
     one.paths.output = (std::filesystem::path(arguments.paths.output) / names[i]).string();
     ++tried;
-    Result<void> done = Run(one);
+    const Result<void> done = RunAlone(one);
+    if (InterruptGuard::Interrupted()) {
+      return SystemError(arguments.paths.output, "interrupted", "repeat the command");
+    }
     if (done) continue;
-    if (InterruptGuard::Interrupted()) return done;
     ++failed;
     std::cerr << "pleinair: " << OneLine(done.error().Message()) << '\n';
   }
@@ -199,16 +211,11 @@ Result<void> RunSeveral(const ReplayArguments& arguments) {
 }  // namespace
 
 Result<void> RunReplay(ReplayArguments& arguments) {
-  try {
-    if (arguments.paths.recordings.size() != 1 || !arguments.shard.empty()) {
-      return RunSeveral(arguments);
-    }
-    arguments.paths.recording = arguments.paths.recordings.front();
-    return Run(arguments);
-  } catch (const std::exception& error) {
-    return SystemError("", std::string("replay failed: ") + error.what(),
-                       "please report it with the recording");
+  if (arguments.paths.recordings.size() != 1 || !arguments.shard.empty()) {
+    return RunSeveral(arguments);
   }
+  arguments.paths.recording = arguments.paths.recordings.front();
+  return RunAlone(arguments);
 }
 
 }  // namespace pleinair::app

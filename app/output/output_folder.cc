@@ -55,10 +55,10 @@ Result<OutputFolder> OutputFolder::Create(const fs::path& path) {
     missing.push_back(at);
   }
   for (auto it = missing.rbegin(); it != missing.rend(); ++it) {
-    if (!fs::create_directory(*it, error)) {
-      return tl::make_unexpected(WriteError(*it, error.value()));
-    }
-    folder.created_.push_back(*it);
+    // A folder that another process makes meanwhile is there, and not ours to remove.
+    const bool is_ours = fs::create_directory(*it, error);
+    if (error) return tl::make_unexpected(WriteError(*it, error.value()));
+    if (is_ours) folder.created_.push_back(*it);
   }
   if (!fs::is_directory(folder.path_, error)) {
     return InputError(path.string(), "is not a folder", "name another folder with -o");

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <utility>
 
 #include "app/project/first_picture.h"
@@ -18,6 +20,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Phones also write photographs that cannot be read.
+Result<void> CheckIsNoRawPhoto(const fs::path& file) {
+  std::string ending = file.extension().string();
+  std::ranges::transform(ending, ending.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (ending != ".heic" && ending != ".heif" && ending != ".dng") return {};
+  return InputError(file.string(), "is a photograph, but no JPEG",
+                    "export it as JPEG, with its tags");
+}
+
 /// The composed file first.
 Result<std::vector<fs::path>> InOrder(const std::vector<fs::path>& files) {
   std::vector<fs::path> films, photos;
@@ -30,6 +42,7 @@ Result<std::vector<fs::path>> InOrder(const std::vector<fs::path>& files) {
       return InputError(file.string(), "is a folder",
                         "name a film or a photograph; 'pleinair replay' composes recordings");
     }
+    PLEINAIR_RETURN_IF_ERROR(CheckIsNoRawPhoto(file));
     (devices::IsImageFile(file) ? photos : films).push_back(file);
   }
   if (films.size() > 1) {

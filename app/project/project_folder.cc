@@ -55,10 +55,11 @@ class Staging {
     }
     missing.insert(missing.begin(), folder_ / (".pleinair.part" + std::to_string(getpid())));
     for (auto it = missing.rbegin(); it != missing.rend(); ++it) {
-      if (!fs::create_directory(*it, error)) {
+      const bool is_ours = fs::create_directory(*it, error), is_last = it + 1 == missing.rend();
+      if (error || (is_last && !is_ours)) {
         return tl::make_unexpected(WriteError(*it, error ? error.value() : EEXIST));
       }
-      if (it + 1 != missing.rend()) created_.push_back(*it);
+      if (is_ours && !is_last) created_.push_back(*it);
     }
     staging_ = missing.front();
     return staging_;

@@ -61,7 +61,7 @@ std::string MarkerText(const NewScene& scene) {
   text += fmt::format("upright = {}\n", scene.upright);
   const StatedHeading& heading = scene.heading.value;
   text +=
-      Line(fmt::format("{} = {:.4g}", heading.is_magnetic ? "heading_magnetic_deg" : "heading_deg",
+      Line(fmt::format("{} = {:.7g}", heading.is_magnetic ? "heading_magnetic_deg" : "heading_deg",
                        heading.deg),
            scene.heading.from);
   text += scene.upright ? "# The heading is the direction in which you look when you read it, "

@@ -52,7 +52,7 @@ Result<void> DrawDay(ReplayState& state) {
   PLEINAIR_ASSIGN_OR_RETURN(
       const std::vector<std::string> written, state.times.Measure("draw day", [&] {
         return WriteTimeLapse(*day, state.day_moments, view.camera_from_marker,
-                              state.folder.staging(), state.options.write.frames);
+                              state.folder.staging(), state.write.frames);
       }));
   report.files.outputs.insert(report.files.outputs.end(), written.begin(), written.end());
   PLEINAIR_ASSIGN_OR_RETURN(report.files.time_lapse, TimeLapseHtml(state.folder.staging()));

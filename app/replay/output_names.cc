@@ -26,7 +26,7 @@ Result<std::vector<std::string>> OutputNames(const std::vector<std::string>& rec
   std::map<std::string, std::string> known;
   for (const std::string& recording : recordings) {
     std::string name = OutputName(recording);
-    if (name.empty() || name == ".") {
+    if (name.empty() || name == "." || name == "..") {
       return InputError(recording, "gives no name to its outputs", "name its folder");
     }
     const auto [other, is_new] = known.emplace(name, recording);

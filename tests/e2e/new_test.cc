@@ -127,6 +127,7 @@ TEST(New, RefusesWhatItCannotMakeAndWritesNothing) {
   tests::WriteFilm(folder / "grey.mov", grey,
                    [](AVFrame* frame, int) { tests::FillPlanes(frame, 128, 128, 128); });
   WriteFile(folder / "words.txt", "no folder");
+  WriteFile(folder / "still.HEIC", "no JPEG");
   fs::create_directory(folder / "other");
   WriteFile(folder / "other/scene.toml", "ground = false\n");
   const std::vector<std::string> before = Listing(folder.path());
@@ -141,6 +142,7 @@ TEST(New, RefusesWhatItCannotMakeAndWritesNothing) {
   refuse({"new", film, "-o", out}, {}, "--size-mm, --heading, --time, --at");
   refuse({"new", film, "-o", out, "--yes"}, {}, "--size-mm, --heading");
   refuse(Stated(folder / "grey.mov", out), {}, "shows no marker");
+  refuse(Stated(film, out), {folder / "still.HEIC"}, "is a photograph, but no JPEG");
   refuse(Stated(film, out), {"--marker", "sg_3"}, "shows no marker sg_3");
   refuse(Stated(film, out), {"--model", folder / "none.glb"}, "none.glb");
   refuse(Stated(film, out), {"--model", folder / "words.txt"}, "words.txt");

@@ -126,6 +126,10 @@ void MarkerViewCollector::Keep(const std::string& name, int which, const Corners
       grey.row(kept.top) + kept.left, right - kept.left, bottom - kept.top, 1, grey.stride()));
   kept_.push_back(std::move(kept));
   while (kept_.size() > options_.max_views) {
+    if (spacing_px_ > std::hypot(size_.width, size_.height)) {
+      kept_.resize(options_.max_views);  // One view of each marker is left.
+      break;
+    }
     spacing_px_ *= kWiderSpacing;
     std::size_t count = 0;
     for (std::size_t i = 0; i < kept_.size(); ++i) {
