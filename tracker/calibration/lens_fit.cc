@@ -89,7 +89,7 @@ Solution Solve(const std::vector<PlaneView>& views, LensFit start, double huber_
   if (!summary.IsSolutionUsable() || !std::isfinite(summary.final_cost)) return solution;
   SetLensNumbers(lens.data(), &solution.fit.camera);
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    solution.fit.camera_from_board[i] = PoseOf(poses[i]);
+    solution.fit.camera_from_board[i] = PoseOf<Camera>(poses[i]);
   }
   // A negative focal length corresponds to a board behind a mirrored camera.
   if (lens[0] > 0.0 && lens[1] > 0.0) solution.cost = summary.final_cost;

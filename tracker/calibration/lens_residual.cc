@@ -57,24 +57,6 @@ void SetLensNumbers(const double* numbers, CameraModel* camera) {
   std::copy_n(numbers + 4, camera->distortion.size(), camera->distortion.begin());
 }
 
-PoseNumbers NumbersOf(const Transform<Camera, Marker>& pose) {
-  PoseNumbers numbers{};
-  ceres::RotationMatrixToAngleAxis(ceres::RowMajorAdapter3x3(pose.rotation.m.data()),
-                                   numbers.data());
-  numbers[3] = pose.translation_m.x;
-  numbers[4] = pose.translation_m.y;
-  numbers[5] = pose.translation_m.z;
-  return numbers;
-}
-
-Transform<Camera, Marker> PoseOf(const PoseNumbers& numbers) {
-  Transform<Camera, Marker> pose;
-  ceres::AngleAxisToRotationMatrix(numbers.data(),
-                                   ceres::RowMajorAdapter3x3(pose.rotation.m.data()));
-  pose.translation_m = {numbers[3], numbers[4], numbers[5]};
-  return pose;
-}
-
 Vec2 ProjectBoardPoint(const CameraModel& camera, const double* pose, Vec2 on_board_m,
                        PixelDerivatives* derivatives) {
   using ByPose = ceres::Jet<double, kPoseNumbers>;

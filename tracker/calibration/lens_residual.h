@@ -6,21 +6,17 @@
 
 #include "base/camera_model.h"
 #include "base/frames.h"
+#include "tracker/pose/pose_numbers.h"
 
 namespace pleinair::tracker {
 
 /// Lens parameters: fx fy cx cy, then the distortion.
 constexpr int kLensNumbers = 12;
-/// Pose parameters: rotation vector and translation of the board in the camera frame.
-constexpr int kPoseNumbers = 6;
 
 using LensNumbers = std::array<double, kLensNumbers>;
-using PoseNumbers = std::array<double, kPoseNumbers>;
 
 LensNumbers NumbersOf(const CameraModel& camera);
 void SetLensNumbers(const double* numbers, CameraModel* camera);
-PoseNumbers NumbersOf(const Transform<Camera, Marker>& pose);
-Transform<Camera, Marker> PoseOf(const PoseNumbers& numbers);
 
 /// Derivatives of a pixel, x before y, row-major.
 struct PixelDerivatives {

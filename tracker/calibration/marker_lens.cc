@@ -255,7 +255,7 @@ class MarkerLensEstimator {
   }
 
   Bundle Solve(Bundle bundle, bool robust) const {
-    constexpr double kHuber = 4.0;  // Of the length of a view's whitened residual.
+    constexpr double kHuber = 4.0;  // Threshold on the norm of a view's whitened residual.
     ceres::Problem problem;
     auto order = std::make_shared<ceres::ParameterBlockOrdering>();
     for (std::size_t i = 0; i < bundle.views.size(); ++i) {
@@ -327,7 +327,7 @@ class MarkerLensEstimator {
       const Eigen::Matrix<double, kPoseNumbers, kPoseNumbers> block = by_pose.transpose() * by_pose;
       information += by_free.transpose() * by_free;
       information -= cross * block.ldlt().solve(cross.transpose());
-      const Transform<Camera, Marker> camera_from_marker = PoseOf(pose);
+      const Transform<Camera, Marker> camera_from_marker = PoseOf<Camera>(pose);
       const double cosine = std::clamp(std::fabs(camera_from_marker.rotation(2, 2)), 0.0, 1.0);
       lens.max_tilt_deg = std::max(lens.max_tilt_deg, std::acos(cosine) / kRadiansPerDegree);
       nearest = std::min(nearest, Norm(camera_from_marker.translation_m));

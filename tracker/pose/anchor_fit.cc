@@ -9,35 +9,14 @@
 #include <memory>
 #include <utility>
 
+#include "tracker/pose/pose_numbers.h"
+
 // Ceres includes glog, which has macros of the names in base/check.h. A file that removes one is
 // compiled alone (cmake/unity_batches.awk), so that none of the two meets the other.
 #undef CHECK_EQ
 
 namespace pleinair::tracker {
 namespace {
-
-/// Rotation vector and translation.
-using RigidNumbers = std::array<double, 6>;
-
-template <typename To, typename From>
-RigidNumbers RigidNumbersOf(const Transform<To, From>& pose) {
-  RigidNumbers numbers{};
-  ceres::RotationMatrixToAngleAxis(ceres::RowMajorAdapter3x3(pose.rotation.m.data()),
-                                   numbers.data());
-  numbers[3] = pose.translation_m.x;
-  numbers[4] = pose.translation_m.y;
-  numbers[5] = pose.translation_m.z;
-  return numbers;
-}
-
-template <typename To>
-Transform<To, Marker> RigidOf(const RigidNumbers& numbers) {
-  Transform<To, Marker> pose;
-  ceres::AngleAxisToRotationMatrix(numbers.data(),
-                                   ceres::RowMajorAdapter3x3(pose.rotation.m.data()));
-  pose.translation_m = {numbers[3], numbers[4], numbers[5]};
-  return pose;
-}
 
 /// Clockwise from top-left, in edges from the centre.
 constexpr std::array<Vec2, 4> kAnchorCorners{{{-0.5, 0.5}, {0.5, 0.5}, {0.5, -0.5}, {-0.5, -0.5}}};
@@ -89,8 +68,8 @@ double PlacementDistance(const Transform<Marker, Marker>& a, const Transform<Mar
   return Norm(a.translation_m - b.translation_m) + std::acos(std::clamp(cosine, -1.0, 1.0));
 }
 
-/// The pose of `marker` by single frames beside placed markers: the one nearest to all others, so
-/// that frames with the wrong one of two planar poses do not count.
+/// Estimates the pose of `marker` from single frames beside placed markers. It is the pose nearest
+/// to all others, so that frames with the wrong one of two planar poses do not count.
 std::optional<Transform<Marker, Marker>> RoughPlacement(const std::vector<AnchorFrame>& frames,
                                                         const std::vector<AnchorMarker>& markers,
                                                         std::size_t marker) {
@@ -138,17 +117,17 @@ void Adjust(const CameraModel& camera, const std::vector<AnchorFrame>& frames,
     if (placed >= 2) shared.push_back(&frame);
   }
   const std::size_t stride = shared.size() / kMaxFrames + 1;
-  std::vector<RigidNumbers> anchors(markers->size()), poses;
+  std::vector<PoseNumbers> anchors(markers->size()), poses;
   poses.reserve(shared.size());
   for (std::size_t i = 0; i < markers->size(); ++i) {
-    if (const auto& at = (*markers)[i].reference_from_marker) anchors[i] = RigidNumbersOf(*at);
+    if (const auto& at = (*markers)[i].reference_from_marker) anchors[i] = NumbersOf(*at);
   }
   ceres::Problem problem;
   auto order = std::make_shared<ceres::ParameterBlockOrdering>();
   for (std::size_t i = 0; i < shared.size(); i += stride) {
     const auto start = FitAnchoredPose(camera, *markers, *shared[i]);
     if (!start) continue;
-    poses.push_back(RigidNumbersOf(start->camera_from_reference));
+    poses.push_back(NumbersOf(start->camera_from_reference));
     order->AddElementToGroup(poses.back().data(), 0);
     for (const AnchorSighting& sighting : *shared[i]) {
       const AnchorMarker& marker = (*markers)[sighting.marker];
@@ -168,7 +147,7 @@ void Adjust(const CameraModel& camera, const std::vector<AnchorFrame>& frames,
   if (!summary.IsSolutionUsable()) return;
   for (std::size_t i = 0; i < markers->size(); ++i) {
     if (free[i] && (*markers)[i].reference_from_marker) {
-      (*markers)[i].reference_from_marker = RigidOf<Marker>(anchors[i]);
+      (*markers)[i].reference_from_marker = PoseOf<Marker>(anchors[i]);
     }
   }
 }
@@ -200,14 +179,14 @@ std::optional<AnchoredPose> FitAnchoredPose(const CameraModel& camera,
   for (const AnchorSighting& from : frame) {
     const auto& placed = markers[from.marker].reference_from_marker;
     if (!placed) continue;
-    RigidNumbers pose = RigidNumbersOf(from.camera_from_marker * placed->Inverse());
-    std::vector<RigidNumbers> anchors;
+    PoseNumbers pose = NumbersOf(from.camera_from_marker * placed->Inverse());
+    std::vector<PoseNumbers> anchors;
     anchors.reserve(frame.size());
     ceres::Problem problem;
     for (const AnchorSighting& sighting : frame) {
       const AnchorMarker& marker = markers[sighting.marker];
       if (!marker.reference_from_marker) continue;
-      anchors.push_back(RigidNumbersOf(*marker.reference_from_marker));
+      anchors.push_back(NumbersOf(*marker.reference_from_marker));
       problem.AddResidualBlock(CostOf(camera, sighting, marker.size_m), nullptr, pose.data(),
                                anchors.back().data());
       problem.SetParameterBlockConstant(anchors.back().data());
@@ -221,7 +200,7 @@ std::optional<AnchoredPose> FitAnchoredPose(const CameraModel& camera,
     least = summary.final_cost;
     // Costs are half the squares.
     const double corners = 4.0 * static_cast<double>(anchors.size());
-    best = AnchoredPose{RigidOf<Camera>(pose),
+    best = AnchoredPose{PoseOf<Camera>(pose),
                         from.deviation_px * std::sqrt(2.0 * summary.final_cost / corners)};
   }
   return best;

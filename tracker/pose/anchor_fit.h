@@ -22,7 +22,7 @@ struct AnchorMarker {
 struct AnchorSighting {
   std::size_t marker = 0;  ///< Index in the list of the anchor's markers.
   std::array<Vec2, 4> corners_px;
-  double deviation_px = 0.1;  ///< Of each corner coordinate.
+  double deviation_px = 0.1;  ///< Standard deviation of each corner coordinate.
   Transform<Camera, Marker> camera_from_marker;
 };
 
@@ -30,9 +30,10 @@ struct AnchorSighting {
 using AnchorFrame = std::vector<AnchorSighting>;
 
 /// Places the markers without a pose by bundle adjustment of the frames that show two or more
-/// (Triggs et al. 2000, "Bundle adjustment"): minimises the squared distances of all corners from
-/// their projections, with Huber's loss, over the poses of the frames and of these markers. Takes
-/// at most 300 frames. A marker that no frame shows beside a placed one stays without a pose.
+/// markers (Triggs et al. 2000, "Bundle adjustment"). It minimises the squared distances of all
+/// corners from their projections, with Huber's loss. The unknowns are the poses of the frames and
+/// of these markers. Takes at most 300 frames. A marker that no frame shows beside a placed one
+/// stays without a pose.
 void PlaceAnchorMarkers(const CameraModel& camera, const std::vector<AnchorFrame>& frames,
                         std::vector<AnchorMarker>* markers);
 
