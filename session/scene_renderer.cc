@@ -90,6 +90,7 @@ Result<std::unique_ptr<SceneRenderer>> SceneRenderer::Create(
     const compositor::ComposerOptions& options, const LightOptions& light) {
   std::unique_ptr<SceneRenderer> renderer(new SceneRenderer(camera, scene));
   if (light.match_look) renderer->look_.emplace();
+  renderer->edited_.first_places = UneditedScene(scene, options, 0.0).objects;
   std::vector<compositor::PlacedModel>& placed = renderer->placed_;
   for (const scene::ModelReference& phantom : scene.phantoms) {
     PLEINAIR_ASSIGN_OR_RETURN(auto model, PlaceModel(phantom, true, scene.marker));
@@ -219,7 +220,8 @@ Result<void> SceneRenderer::UseLight(std::shared_ptr<const BakedLighting> light)
 
 Result<void> SceneRenderer::Edit(const SceneEdit& edit) {
   scene_ = WithEdit(scene_, edit);
-  edited_ = {edit.later_s, edit.heading_deg.has_value()};
+  edited_.later_s = edit.later_s;
+  edited_.heading = edit.heading_deg.has_value();
   exposure_.SetLocked(edit.lock_exposure);
   if (!composer_) return {};
   for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
@@ -241,7 +243,9 @@ void SceneRenderer::MoveObjects() {
   if (lit == nullptr || lit->objects.empty()) return;
   for (std::size_t i = 0; i < lit->objects.size(); ++i) {
     const std::size_t model = scene_.phantoms.size() + i;
-    const ObjectPlace& place = lit->objects[i];
+    // Bodies that change their shape have no part in the baked light, and stay where they began.
+    const ObjectPlace& place =
+        placed_[model].playback.animation ? edited_.first_places[i] : lit->objects[i];
     // Inverse of a rotation times a scale.
     Mat3 back = LinearOf(place).Transposed();
     for (double& element : back.m) element /= place.scale * place.scale;

@@ -134,6 +134,7 @@ class SceneRenderer {
   struct Edited {
     double later_s = 0.0;  // Added to the time of each frame.
     bool heading = false;  // An edit set the heading: estimated ones no longer apply.
+    std::vector<ObjectPlace> first_places;  // Before any edit.
   };
 
   SceneRenderer(const CameraModel& camera, const scene::SceneDescription& scene);

@@ -77,6 +77,13 @@ class MovingCube {
     composer_ = ComposerInTheSun({kGround, cube_});
   }
 
+  /// Puts it below the same sky, with a sun of this illuminance.
+  void SetSun(double sun_lux) {
+    const SouthernSun day(sun_lux);
+    const auto solver = LightSolver::Create({kGround, cube_}, {.rays_per_vertex = 64}).value();
+    ASSERT_TRUE(composer_->SetLight(solver->Solve(day, Mat3{}), day, Mat3{}, {1, 1, 1}));
+  }
+
   /// Composes an image with the cube moved to the right.
   RgbImage At(double right_m) {
     std::vector<MeshShape> shape = cube_.playback.animation->At(0.0);
@@ -106,6 +113,16 @@ TEST(ChangingSurface, TakesItsShadowAlong) {
   for (int i = 0; i < 40; ++i) after = cube.At(0.7);
   EXPECT_NEAR(SeenAt(after, in_shadow), ground, 0.01);
   EXPECT_NEAR(SeenAt(after, {}), ground, 0.01);
+}
+
+TEST(ChangingSurface, ForgetsASunThatIsGone) {
+  const Vec3 before_the_sunny_side{0, -0.2, 0};
+  MovingCube at_rest, fresh;
+  for (int i = 0; i < 10; ++i) at_rest.At(0.0);
+  at_rest.SetSun(0.0);
+  fresh.SetSun(0.0);
+  const double expected = SeenAt(fresh.At(0.0), before_the_sunny_side);
+  EXPECT_NEAR(SeenAt(at_rest.At(0.0), before_the_sunny_side), expected, 0.03 * expected);
 }
 
 TEST(ChangingSurface, DependsOnTheSequenceOfShapesAlone) {

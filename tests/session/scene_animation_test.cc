@@ -15,6 +15,8 @@
 #include "base/image.h"
 #include "base/utc_time.h"
 #include "scene/described_surface.h"
+#include "session/baked_lighting.h"
+#include "session/scene_edit.h"
 #include "session/scene_renderer.h"
 #include "tests/compositor/models/bending_tube.h"
 #include "tests/temporary_folder.h"
@@ -44,6 +46,7 @@ class BendingScene {
   }
 
   scene::ModelReference& object() { return scene_.objects[0]; }
+  const scene::SceneDescription& scene() const { return scene_; }
   std::unique_ptr<SceneRenderer> Renderer() const {
     auto renderer = SceneRenderer::Create(kCamera, scene_, {});
     EXPECT_TRUE(renderer) << renderer.error().Message();
@@ -96,6 +99,27 @@ TEST(SceneAnimation, StartsAndRepeatsAsStated) {
   EXPECT_TRUE(Covers(scene.Image(*renderer, 0.0), 0.24, 0.42));
   EXPECT_FALSE(Covers(scene.Image(*renderer, 0.2), 0.24, 0.42));
   EXPECT_TRUE(Covers(scene.Image(*renderer, 2.0), 0.24, 0.42));
+}
+
+TEST(SceneAnimation, StaysWhereItIsDraggedWhenTheLightIsMadeAnew) {
+  BendingScene scene;
+  const auto renderer = scene.Renderer();
+  SceneEdit edit = UneditedScene(scene.scene(), {}, 0.0);
+  const auto use_light = [&] {
+    const auto light = std::make_shared<BakedLighting>(
+        renderer->MakeLightingRequest(scene.scene().place_time.start));
+    light->objects = edit.objects;
+    ASSERT_TRUE(renderer->UseLight(light));
+  };
+  use_light();
+  edit.objects[0].translation_m.x = 0.25;
+  ASSERT_TRUE(renderer->Edit(edit));
+  for (const char* light : {"as before", "made anew"}) {
+    const RgbImage image = scene.Image(*renderer, 0.0);
+    EXPECT_TRUE(Covers(image, 0.25, 0.55)) << light;
+    EXPECT_FALSE(Covers(image, 0.0, 0.55)) << light;
+    use_light();
+  }
 }
 
 TEST(SceneAnimation, IsRefusedIfTheFileHasNoneOfThatName) {

@@ -135,6 +135,10 @@ void BodyProbes::Refresh(const Surroundings& surroundings, std::size_t probes) {
   FillBuried();
 }
 
+void BodyProbes::Forget() {
+  for (Probe& probe : probes_) probe.rays = 0.0F;
+}
+
 void BodyProbes::Trace(const Surroundings& surroundings, std::size_t index) {
   Probe& probe = probes_[index];
   const Side& side = sides_[probe.side];

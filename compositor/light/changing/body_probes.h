@@ -29,6 +29,8 @@ class BodyProbes {
   /// fewer.
   void Refresh(const Surroundings& surroundings, std::size_t probes);
   std::size_t size() const { return probes_.size(); }
+  /// Forgets all rays: the next ones count alone.
+  void Forget();
 
   /// One triangle per three patches that meet, for rays. Empty for a mesh of
   /// ChangingMesh::DrawnMeshes() with few triangles.
@@ -45,7 +47,8 @@ class BodyProbes {
     const SurfaceMesh* surface = nullptr;
     bool back = false;
     std::shared_ptr<const SurfacePatches> groups;  // Null: each vertex is a probe.
-    std::shared_ptr<const std::vector<std::uint32_t>> first_corners;  // Of a triangle, by vertex.
+    // By vertex: index of the first corner of one of its triangles.
+    std::shared_ptr<const std::vector<std::uint32_t>> first_corners;
     std::size_t first_probe = 0;
   };
   struct Probe {

@@ -18,10 +18,13 @@ namespace {
 
 // Probes and still vertices that a frame refreshes: about 4 ms on two processors.
 constexpr std::size_t kProbesPerFrame = 192, kVerticesPerFrame = 384;
-// Rounds over all of them when the scene is new, so that the first frame has 64 rays a probe.
-constexpr int kFirstRounds = 4;
+// Rounds over all of them when the scene or its light is new. The first does not count, so that the
+// first frame has 64 rays a probe.
+constexpr int kFirstRounds = 5;
 // Movement of the sun after which all light is traced again.
 constexpr double kMaxSunMove = 0.03;
+// The same of their light, relative.
+constexpr double kMaxLightChange = 0.05;
 
 bool HaveSameGeometry(std::span<const LitMesh> a, std::span<const LitMesh> b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const LitMesh& x, const LitMesh& y) {
@@ -65,9 +68,14 @@ class TracedBodies : public ChangingBodies {
       std::copy(still_.begin(), still_.end(), meshes_.begin());
     }
     const Vec3 to_sun = marker_from_world * daylight.ToSun().xyz;
-    if (is_new || Norm(to_sun - state_.to_sun) > kMaxSunMove) {
+    const double lux =
+        Luminance(daylight.SunNormalIrradiance()) + Luminance(daylight.SkyHorizontalIrradiance());
+    if (is_new || Norm(to_sun - state_.to_sun) > kMaxSunMove ||
+        std::fabs(lux - state_.lux) > kMaxLightChange * state_.lux) {
       state_.to_sun = to_sun;
+      state_.lux = lux;
       state_.rounds = kFirstRounds;
+      Forget();
     }
     state_.has_new_light = true;
     contacts_->Light(Still());
@@ -78,7 +86,11 @@ class TracedBodies : public ChangingBodies {
     if (!contacts_) return false;
     if (state_.has_new_shape) Follow();
     state_.has_new_shape = state_.has_new_light = false;
-    for (; state_.rounds > 0; --state_.rounds) Refresh(probes_->size(), contacts_->size());
+    for (; state_.rounds > 0; --state_.rounds) {
+      Refresh(probes_->size(), contacts_->size());
+      // The rays of the first round end at surfaces with their light of before.
+      if (state_.rounds == kFirstRounds) Forget();
+    }
     Refresh(kProbesPerFrame, kVerticesPerFrame);
     return true;
   }
@@ -89,8 +101,9 @@ class TracedBodies : public ChangingBodies {
  private:
   struct State {
     bool has_new_shape = true, has_new_light = true;
-    int rounds = 0;  // Over all probes, before the next frame.
-    Vec3 to_sun;     // When all light was last traced.
+    int rounds = 0;    // Over all probes, before the next frame.
+    Vec3 to_sun;       // When all light was last traced; `lux`, too.
+    double lux = 0.0;  // The unshaded sun and the sky together.
   };
 
   const ChangingMesh* Find(int placed_model) const {
@@ -99,6 +112,11 @@ class TracedBodies : public ChangingBodies {
   }
   ChangingMesh* Find(int placed_model) {
     return const_cast<ChangingMesh*>(std::as_const(*this).Find(placed_model));
+  }
+
+  void Forget() {
+    probes_->Forget();
+    contacts_->Forget();
   }
 
   std::span<LitMesh> Still() { return std::span(meshes_).first(still_.size()); }

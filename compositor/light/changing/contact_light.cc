@@ -73,6 +73,12 @@ void ContactLight::FollowBodies(std::span<const LitMesh> bodies, double moved_m)
   turns_[1] = {close, near_.size() - close, 0};
 }
 
+void ContactLight::Forget() {
+  for (auto& mesh : changes_) {
+    for (Change& change : mesh) change.rays = 0.0F;
+  }
+}
+
 void ContactLight::Refresh(const Surroundings& surroundings, std::size_t vertices) {
   const bool all = vertices >= near_.size();
   Refresh(surroundings, all ? vertices : vertices * 2 / 3, &turns_[0]);

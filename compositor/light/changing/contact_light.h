@@ -12,13 +12,14 @@
 
 namespace pleinair::compositor {
 
-/// How bodies that change take indirect light from still surfaces near them, and reflect light to
-/// them. At a vertex of normal n, with rays in the cone that holds the bodies,
+/// Estimates how bodies that change alter the indirect illumination of still surfaces near them.
+/// The bodies occlude light and reflect light. N rays fill the cone that holds the bodies, of solid
+/// angle Ω. At a vertex of normal n, the irradiance changes by
 ///
-///     ΔE = Ω/N Σ max(n · ω, 0) (L_body(ω) − L_behind(ω)),
+///     ΔE = Ω/N Σ max(n · ω, 0) (L_body(ω) − L_behind(ω)).
 ///
-/// summed over the N rays that end at a body; Ω is the cone's solid angle. L_behind is the sky's
-/// radiance, or the mean of what the vertex receives where a still surface is behind the body.
+/// The sum is over the rays that end at a body. L_behind is the sky's radiance where only the sky
+/// is behind the body. Elsewhere it is the mean of what the vertex receives.
 class ContactLight {
  public:
   /// `still`: the surfaces in their light without the bodies. It must outlive this object.
@@ -32,6 +33,8 @@ class ContactLight {
   void Refresh(const Surroundings& surroundings, std::size_t vertices);
   /// Number of vertices near the bodies.
   std::size_t size() const { return near_.size(); }
+  /// Forgets all rays: the next ones count alone.
+  void Forget();
   /// Sets the light of `drawn`, copies of the still surfaces, to that with the bodies.
   void Light(std::span<LitMesh> drawn);
 

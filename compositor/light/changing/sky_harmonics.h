@@ -7,15 +7,20 @@
 
 namespace pleinair::compositor {
 
-/// The sky's light through a cone, by nine spherical harmonics.
+/// The sky's irradiance through a cone, by nine spherical harmonics.
 ///
-/// Radiance L is projected onto the real harmonics Y_lm up to l = 2, with the sky mirrored at the
-/// horizon, so that no edge there rings. A surface that sees the share A of its cosine-weighted
-/// surroundings is taken to see a cone about the mean direction b of what it sees, of the half
-/// angle α with sin² α = A. By the Funk–Hecke theorem, with c = cos α:
+/// Radiance L is projected onto the real harmonics Y_lm up to l = 2. The sky is mirrored at the
+/// horizon, so that no edge there causes ringing.
 ///
-///     E(b, A) = Σ_l λ_l(A) Σ_m L_lm Y_lm(b)
-///     λ_0 = π (1 − c²),  λ_1 = 2π (1 − c³) / 3,  λ_2 = π (1 − c²)(1 + 3 c²) / 4
+/// Let A be the share of its cosine-weighted surroundings that a surface sees, and b the mean
+/// direction of that share. The surface is assumed to see a cone about b with the half angle α,
+/// sin² α = A. By the Funk–Hecke theorem, its irradiance is
+///
+///     E(b, A) = Σ_l λ_l(A) Σ_m L_lm Y_lm(b).
+///
+/// With c = cos α, the factors are
+///
+///     λ_0 = π (1 − c²),  λ_1 = 2π (1 − c³) / 3,  λ_2 = π (1 − c²)(1 + 3 c²) / 4.
 ///
 /// For A = 1 these are Ramamoorthi & Hanrahan 2001, "An Efficient Representation for Irradiance
 /// Environment Maps", Eq. 8.

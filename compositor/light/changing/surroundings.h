@@ -33,7 +33,7 @@ class Surroundings {
   /// Coarser triangles in place of those of a fine mesh. They are nearly the mesh, so that rays
   /// from the mesh must not see them before `gap_m`.
   struct Coarse {
-    std::vector<std::uint32_t> vertices;  ///< Of the mesh. Empty: its own triangles.
+    std::vector<std::uint32_t> vertices;  ///< Indices in the mesh. Empty: its own triangles.
     std::vector<std::uint32_t> indices;   ///< Three per triangle, of `vertices`.
     double gap_m = 0.0;
   };
@@ -81,7 +81,7 @@ class Surroundings {
   bool SeesBody(Vec3 origin, Vec3 direction, RayHit* hit) const;
 
   std::vector<Surface> still_, bodies_;
-  double gap_m_ = 0.0;  // Of the bodies.
+  double gap_m_ = 0.0;  // Maximum of the bodies' Coarse::gap_m.
   std::unique_ptr<RayScene> still_rays_, body_rays_;
   std::optional<SkyTable> sky_;
   Vec3 to_sun_;
