@@ -69,7 +69,7 @@ class Completion {
     if (depth_ >= kItem) keys_.insert(name);
   }
 
-  /// What the object that closes lacks. Of two equal keys, the last counts.
+  /// What the object that closes lacks. If two keys are equal, the last counts.
   std::string_view Missing() const {
     if (list_ == "buffers" && keys_.contains(kMeshoptExtension) && !keys_.contains("uri")) {
       return R"(,"uri":"data:application/octet-stream;base64,AA==","byteLength":1)";
@@ -90,8 +90,8 @@ class Completion {
   std::string_view text_;
   std::size_t at_ = 0, copied_ = 0;
   int depth_ = 0;
-  std::string_view list_;            // Of the file's object, which is read now.
-  std::set<std::string_view> keys_;  // Of the object that is read now, at any depth.
+  std::string_view list_;            // Key of the file's object that is read now.
+  std::set<std::string_view> keys_;  // Keys of the object that is read now, at any depth.
   std::string result_;
 };
 

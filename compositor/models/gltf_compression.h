@@ -12,13 +12,13 @@ class Model;
 
 namespace pleinair::compositor {
 
-/// Extensions whose content this build decompresses: EXT_meshopt_compression and
-/// KHR_draco_mesh_compression with the libraries meshoptimizer and Draco.
+/// Returns whether this build decompresses the content of an extension. EXT_meshopt_compression
+/// needs the library meshoptimizer, KHR_draco_mesh_compression needs Draco.
 bool CanDecompress(const std::string& extension);
 
-/// The content of a compressed glTF file, text or binary, without the gaps that its extensions
-/// leave and tinygltf refuses: buffers without data become one byte, and accessors without a buffer
-/// view refer to the first. Other content is returned as it is.
+/// Fills the gaps in the content of a compressed glTF file, text or binary. Its extensions leave
+/// these gaps, which tinygltf refuses. Buffers without data become one byte. Accessors without a
+/// buffer view refer to the first. Other content is returned as it is.
 std::string WithoutGaps(std::string content);
 
 /// Replaces compressed buffer views and accessors by their content. Without compression it does

@@ -13,6 +13,16 @@ inline tl::unexpected<Error> GltfError(const std::string& where, std::string wha
   return InputError(where, std::move(what), "repair the model or export it again");
 }
 
+/// A name of the file for messages and lists: at most 120 bytes, without splitting a UTF-8
+/// character.
+inline std::string ShortName(const std::string& name) {
+  constexpr std::size_t kMaxBytes = 120;
+  if (name.size() <= kMaxBytes) return name;
+  std::size_t end = kMaxBytes;
+  while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xC0U) == 0x80U) --end;
+  return name.substr(0, end);
+}
+
 /// Returns whether an index of a glTF file refers to one of `count` items. Missing indices are
 /// negative.
 inline bool IsGltfIndex(int index, std::size_t count) {

@@ -18,9 +18,7 @@
 namespace pleinair::compositor {
 namespace {
 
-// Max. length of an extension's name in messages.
-constexpr std::size_t kMaxNameLength = 64;
-// Of a normal map: steeper bumps are clipped by the shader anyway.
+// Max. scale of a normal map. The shader clips steeper bumps anyway.
 constexpr double kMaxBumpScale = 100.0;
 // Refractive index of a material without one (glTF 2.0, appendix B.2); that of diamond.
 constexpr double kDefaultIor = 1.5, kMaxIor = 2.42;
@@ -31,7 +29,7 @@ constexpr double kMaxLuminance_cd_m2 = 2e10;
 constexpr const char* kTransmissionBesideEmission =
     "textures of diffuse transmission beside those of emission";
 constexpr const char* kThirdSet = "a third set of texture coordinates";
-// Of layers: their factors count alone.
+// Ignored textures of layers: only the layers' factors count.
 constexpr std::array<const char*, 4> kIgnoredTextures = {
     "specularColorTexture", "sheenColorTexture", "sheenRoughnessTexture", "clearcoatNormalTexture"};
 
@@ -276,19 +274,9 @@ class MaterialReader {
         ColorOf(source, kName, "diffuseTransmissionColorFactor", {1.0F, 1.0F, 1.0F});
     for (float& value : transmission.color) value *= factor * material->coat.base_share;
     for (float& value : material->base_color) value *= 1.0F - factor;
-    const tinygltf::Value& texture =
-        GltfField(source.extensions.at(kName), "diffuseTransmissionColorTexture");
-    const tinygltf::Value& index = GltfField(texture, "index");
-    if (!index.IsInt()) return {};
-    tinygltf::TextureInfo info;
-    info.index = index.GetNumberAsInt();
-    if (const tinygltf::Value& set = GltfField(texture, "texCoord"); set.IsInt()) {
-      info.texCoord = set.GetNumberAsInt();
-    }
-    if (const tinygltf::Value& extensions = GltfField(texture, "extensions");
-        extensions.IsObject() && extensions.Has("KHR_texture_transform")) {
-      info.extensions["KHR_texture_transform"] = extensions.Get("KHR_texture_transform");
-    }
+    const tinygltf::TextureInfo info =
+        TextureInfoOf(GltfField(source.extensions.at(kName), "diffuseTransmissionColorTexture"));
+    if (info.index < 0) return {};
     const auto coordinates = CoordinatesIn(uvs, UvMapOf(info));
     if (!coordinates) {
       material->unsupported_features.insert(kThirdSet);
@@ -362,21 +350,13 @@ class MaterialReader {
       const std::string& extension = entry.first;
       const tinygltf::Value& value = entry.second;
       if (!kSupported.contains(extension)) {
-        material->unsupported_features.insert(Shortened(extension));
+        material->unsupported_features.insert(ShortName(extension));
       } else if (std::ranges::any_of(kIgnoredTextures, [&](const char* key) {
                    return GltfField(value, key).IsObject();
                  })) {
         material->unsupported_features.insert("textures of layers");
       }
     }
-  }
-
-  /// Shortens a name without splitting a UTF-8 character.
-  static std::string Shortened(const std::string& name) {
-    if (name.size() <= kMaxNameLength) return name;
-    std::size_t end = kMaxNameLength;
-    while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xC0U) == 0x80U) --end;
-    return name.substr(0, end);
   }
 
   /// Multiplies by a texture's mean: green is roughness, blue metallic, both linear.
@@ -397,7 +377,7 @@ class MaterialReader {
   std::string where_;
   Model& model_;
   std::map<std::pair<int, bool>, int> textures_;  ///< Model's texture by glTF image and use.
-  std::map<int, std::array<float, 4>> means_;     ///< Of the channels, by glTF image.
+  std::map<int, std::array<float, 4>> means_;     ///< Means of the channels, by glTF image.
   std::vector<MaterialUvs> uvs_;
 };
 

@@ -2,11 +2,28 @@
 
 #include <tiny_gltf.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 #include "compositor/models/gltf_error.h"
 
 namespace pleinair::compositor {
+
+std::vector<AnimationInFile> AnimationsOf(const tinygltf::Model& gltf) {
+  std::vector<AnimationInFile> animations;
+  for (const tinygltf::Animation& animation : gltf.animations) {
+    AnimationInFile& listed = animations.emplace_back();
+    listed.name = ShortName(animation.name);
+    for (const tinygltf::AnimationSampler& sampler : animation.samplers) {
+      if (!IsGltfIndex(sampler.input, gltf.accessors.size())) continue;
+      const auto& times = gltf.accessors[static_cast<std::size_t>(sampler.input)].maxValues;
+      if (times.empty() || !std::isfinite(times[0])) continue;
+      listed.duration_s = std::max(listed.duration_s, times[0]);
+    }
+  }
+  return animations;
+}
 
 Result<GltfPose> PoseOf(const tinygltf::Model& gltf, const ModelPose& pose,
                         const std::string& where) {

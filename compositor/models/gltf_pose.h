@@ -26,6 +26,9 @@ struct ModelPose {
 Result<Model> LoadModel(const std::filesystem::path& file, const ModelOptions& options,
                         const ModelPose& pose);
 
+/// The animations of a file, with their durations.
+std::vector<AnimationInFile> AnimationsOf(const tinygltf::Model& gltf);
+
 /// Evaluates an animation at one moment. Errors as GltfClip::Read(). `where` names the file.
 Result<GltfPose> PoseOf(const tinygltf::Model& gltf, const ModelPose& pose,
                         const std::string& where);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 #include <set>
 #include <utility>
 
@@ -23,8 +24,6 @@ namespace pleinair::compositor {
 namespace {
 
 constexpr const char* kUnchosenAnimations = "animations";
-// Max. length of the name of the program that wrote the file.
-constexpr std::size_t kMaxNameLength = 120;
 
 /// Extensions that a file may require and that change nothing the reader supports.
 const std::set<std::string>& KnownExtensions() {
@@ -84,8 +83,8 @@ class GltfReader {
     if (!gltf_.skins.empty()) posed_.placements = ScenePlacements(gltf_, posed_.pose);
     PLEINAIR_RETURN_IF_ERROR(ReadNodes());
     if (model_.meshes.empty()) return GltfError(where_, "its scene has no triangles");
-    model_.written_by = gltf_.asset.generator.substr(0, kMaxNameLength);
-    ListAnimations();
+    model_.written_by = ShortName(gltf_.asset.generator);
+    model_.animations = AnimationsOf(gltf_);
     if (!gltf_.animations.empty() && moment_.animation.empty()) {
       model_.unsupported_features.insert(kUnchosenAnimations);
     }
@@ -106,23 +105,10 @@ class GltfReader {
 
   /// Shape of a node's mesh.
   struct Shape {
-    const std::vector<float>& weights;  ///< Of its morph targets.
+    const std::vector<float>& weights;  ///< Weights of its morph targets.
     std::size_t node;
     int skin;  ///< -1 for none.
   };
-
-  void ListAnimations() {
-    for (const tinygltf::Animation& animation : gltf_.animations) {
-      AnimationInFile& listed = model_.animations.emplace_back();
-      listed.name = animation.name.substr(0, kMaxNameLength);
-      for (const tinygltf::AnimationSampler& sampler : animation.samplers) {
-        if (!IsGltfIndex(sampler.input, gltf_.accessors.size())) continue;
-        const auto& times = gltf_.accessors[static_cast<std::size_t>(sampler.input)].maxValues;
-        if (times.empty() || !std::isfinite(times[0])) continue;
-        listed.duration_s = std::max(listed.duration_s, times[0]);
-      }
-    }
-  }
 
   Result<void> Parse() {
     tinygltf::TinyGLTF loader;
@@ -308,7 +294,7 @@ class GltfReader {
       PLEINAIR_ASSIGN_OR_RETURN(order, ReadGltfIndices(gltf_, primitive.indices, where_));
     } else {
       order.resize(mesh->positions.size());
-      for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<std::uint32_t>(i);
+      std::iota(order.begin(), order.end(), 0U);
     }
     for (const std::uint32_t index : order) {
       if (index >= mesh->positions.size()) {

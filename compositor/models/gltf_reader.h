@@ -19,11 +19,12 @@ bool LooksLikeGltf(std::string_view content);
 /// default scene become one model. glTF is y-up; the marker's frame is z-up.
 /// (x, y, z) becomes (x, −z, y). Lengths remain in metres.
 ///
-/// Supported are base color, metallic and roughness (factors and textures), alphaMode, alphaCutoff,
-/// normal maps, emission with its strength, vertex colors, unlit materials, KHR_texture_transform,
-/// and KHR_materials_ior, _specular, _clearcoat, _sheen, _diffuse_transmission and _transmission,
-/// whose textures are replaced by their mean. The textures of a material may use two sets of
-/// texture coordinates. With a third, metallic and roughness are replaced by their mean.
+/// Base color, metallic and roughness are supported (factors and textures), also alphaMode and
+/// alphaCutoff. So are normal maps, emission with its strength, vertex colors, unlit materials and
+/// KHR_texture_transform. Further supported extensions are KHR_materials_ior, _specular,
+/// _clearcoat, _sheen, _diffuse_transmission and _transmission. Their scalar textures are replaced
+/// by the mean. The textures of a material may use two sets of texture coordinates. With a third,
+/// metallic and roughness are replaced by their mean.
 ///
 /// Skins and morph targets have the shape of `pose`. KHR_mesh_quantization, and with their
 /// libraries EXT_meshopt_compression, KHR_draco_mesh_compression and EXT_texture_webp are read.

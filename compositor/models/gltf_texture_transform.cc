@@ -13,6 +13,7 @@ namespace pleinair::compositor {
 namespace {
 
 constexpr float kMaxUv = 1e8F;
+constexpr const char* kTransformExtension = "KHR_texture_transform";
 
 using Matrix = std::array<double, 4>;  // Row-major.
 
@@ -48,7 +49,7 @@ std::optional<TextureCoordinates> Relative(const UvMap& map, const UvMap& first)
 UvMap Transformed(int set, const tinygltf::ExtensionMap& extensions) {
   UvMap map;
   map.set = set;
-  const auto found = extensions.find("KHR_texture_transform");
+  const auto found = extensions.find(kTransformExtension);
   if (found == extensions.end()) return map;
   const tinygltf::Value& transform = found->second;
   const auto pair = [&](const char* key, std::array<double, 2>* numbers) {
@@ -80,6 +81,21 @@ std::array<float, 2> UvMap::operator()(const std::array<float, 2>& uv) const {
                                       : std::numeric_limits<float>::infinity();
   };
   return {narrowed(offset[0] + c * u + s * v), narrowed(offset[1] - s * u + c * v)};
+}
+
+tinygltf::TextureInfo TextureInfoOf(const tinygltf::Value& texture) {
+  tinygltf::TextureInfo info;
+  if (const auto& index = GltfField(texture, "index"); index.IsInt()) {
+    info.index = index.GetNumberAsInt();
+  }
+  if (const auto& set = GltfField(texture, "texCoord"); set.IsInt()) {
+    info.texCoord = set.GetNumberAsInt();
+  }
+  const auto& extensions = GltfField(texture, "extensions");
+  if (extensions.IsObject() && extensions.Has(kTransformExtension)) {
+    info.extensions[kTransformExtension] = extensions.Get(kTransformExtension);
+  }
+  return info;
 }
 
 UvMap UvMapOf(const tinygltf::TextureInfo& texture) {

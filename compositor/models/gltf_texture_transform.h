@@ -10,6 +10,7 @@
 namespace tinygltf {
 struct TextureInfo;
 struct NormalTextureInfo;
+class Value;
 }  // namespace tinygltf
 
 namespace pleinair::compositor {
@@ -28,13 +29,16 @@ struct UvMap {
 
 /// Texture coordinates of a mesh whose material has several textures.
 struct MaterialUvs {
-  UvMap first;                    ///< Of Mesh::uvs: that of the base color, if it has a texture.
+  UvMap first;                    ///< Map of Mesh::uvs: that of a base color texture, if any.
   std::optional<int> second_set;  ///< Set in VertexDetail::uv; unset: none.
 };
 
 /// Expresses a texture's map by the coordinates of a mesh. Takes a second set if it is still free.
 /// Returns nothing if a third set would be needed.
 std::optional<TextureCoordinates> CoordinatesIn(MaterialUvs* uvs, const UvMap& map);
+
+/// A texture of a material's extension, as tinygltf reads those of the core. Index -1: none.
+tinygltf::TextureInfo TextureInfoOf(const tinygltf::Value& texture);
 
 /// The map of a material's texture; without the extension, the texture's own coordinates.
 UvMap UvMapOf(const tinygltf::TextureInfo& texture);

@@ -9,15 +9,15 @@ namespace pleinair::compositor {
 
 /// How a light changes a leaf's colors, as factors. The identity for other materials.
 struct LeafTints {
-  std::array<float, 3> base_sky{1.0F, 1.0F, 1.0F};     ///< Of the reflected sky, against D65.
-  std::array<float, 3> base_sun{1.0F, 1.0F, 1.0F};     ///< Of the reflected sun, against the sky.
+  std::array<float, 3> base_sky{1.0F, 1.0F, 1.0F};     ///< Reflected skylight, against D65.
+  std::array<float, 3> base_sun{1.0F, 1.0F, 1.0F};     ///< Reflected sunlight, against skylight.
   std::array<float, 3> through_sky{1.0F, 1.0F, 1.0F};  ///< The same for transmitted light.
   std::array<float, 3> through_sun{1.0F, 1.0F, 1.0F};
 };
 
-/// Share of light along the normal that a leaf's surface reflects into the gloss lobe: 1 − t(40°,
-/// n) of the lobe's n = 1.45, times the gloss, once at most. The rest enters the leaf. 0 for the
-/// plate model, all of whose reflectance is diffuse, as in its paper.
+/// Share of light along the normal that a leaf's surface reflects into the gloss lobe. It is
+/// min(gloss, 1) × (1 − t(40°, n)), with the lobe's n = 1.45. The rest enters the leaf. The share
+/// is 0 for the plate model, all of whose reflectance is diffuse, as in its paper.
 float SurfaceShareOf(const LeafSurface& leaf);
 
 /// Makes a material that of a leaf: its base color and transmission are those of the inside, of

@@ -39,7 +39,7 @@ struct TextureCoordinates {
 /// blue outwards.
 struct NormalMap {
   int texture = -1;    ///< Index into Model::textures, -1 for none; linear.
-  float scale = 1.0F;  ///< Of red and green.
+  float scale = 1.0F;  ///< Multiplies red and green.
   TextureCoordinates coordinates;
 };
 

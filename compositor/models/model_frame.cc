@@ -12,9 +12,9 @@
 namespace pleinair::compositor {
 namespace {
 
-// Of the model's largest side: how near to zero its ends are where it stands or is centred.
+// Share of the model's largest side. An end or a centre that is this near to zero counts as zero.
 constexpr double kNearZero = 0.01;
-// Of its side: by how much the halves differ of a body that is not symmetric.
+// Share of the side along an axis. Halves whose lengths differ by more are unequal.
 constexpr double kUnequal = 0.05;
 
 void Include(const std::array<float, 3>& p, ModelBounds* box) {

@@ -42,7 +42,7 @@ ModelBounds BoundsOf(const Model& model);
 FrameMap ApplyFrame(const ModelFrame& frame, Model* model);
 
 /// Returns whether a model that is read as z-up was probably modelled with y up. Either it stands
-/// on y = 0 and is centred on z = 0, or only z divides it into equal halves, as a body is divided
+/// on y = 0 and is centred on z = 0. Or only z divides it into equal halves, as it divides a body
 /// that faces x. For files of Blender, whose OBJ export is y-up by default, it suffices that the
 /// model does not stand on z = 0.
 bool LooksYUp(const Model& model);

@@ -45,7 +45,7 @@ std::vector<SurfaceMesh> OrientedSurfaces(const PlacedModel& placed, int placed_
 struct TracedSurface {
   SurfaceMesh surface;
   std::size_t mesh = 0;                 ///< Index into the model's meshes.
-  std::vector<std::uint32_t> vertices;  ///< Of that mesh, one per vertex of the surface.
+  std::vector<std::uint32_t> vertices;  ///< Index in that mesh, one per vertex of the surface.
 };
 
 /// As OrientedSurfaces(), but only corners of one vertex become one. Others may part when the model

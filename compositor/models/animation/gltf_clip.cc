@@ -113,7 +113,7 @@ Result<void> GltfClip::ReadChannels(const tinygltf::Model& gltf, std::size_t ani
   std::set<std::pair<int, std::string_view>> moved;
   std::size_t weights = 0, numbers = 0;
   for (const tinygltf::AnimationChannel& channel : source.channels) {
-    if (channel.target_node < 0) continue;  // Of an extension.
+    if (channel.target_node < 0) continue;  // The target belongs to an extension.
     if (!IsGltfIndex(channel.target_node, gltf.nodes.size()) ||
         !IsGltfIndex(channel.sampler, source.samplers.size())) {
       return GltfError(where, "an animation refers to a node or a sampler out of range");

@@ -21,17 +21,17 @@ namespace pleinair::compositor {
 /// The nodes of a glTF file at one moment.
 struct GltfPose {
   std::vector<GltfPlacement> local;         ///< By node: parent from node coordinates.
-  std::vector<std::vector<float>> weights;  ///< Of morph targets, by node; empty: its mesh's.
+  std::vector<std::vector<float>> weights;  ///< Morph target weights by node; empty: its mesh's.
 };
 
-/// An animation of a glTF file with its key frames in memory (glTF 2.0, 3.11 and appendix C):
-/// steps, lines with spherical interpolation of rotations, and cubic splines.
+/// An animation of a glTF file with its key frames in memory (glTF 2.0, 3.11 and appendix C). It
+/// interpolates by steps, linearly (rotations spherically), or by cubic splines.
 class GltfClip {
  public:
-  /// Reads an animation by its name, else by its number from 0 on. An empty name: none, the nodes
-  /// keep their pose. Errors: no such animation; times that are not finite or do not increase;
-  /// counts that do not match; a property that moves twice; too many keys for the memory. `where`
-  /// names the file.
+  /// Reads an animation by its name, else by its number from 0 on. An empty name selects none: the
+  /// nodes keep their pose. Errors: no such animation, a property that moves twice, or too many
+  /// keys for the memory. Further errors: times that are not finite or do not increase, and counts
+  /// that do not match. `where` names the file.
   static Result<GltfClip> Read(const tinygltf::Model& gltf, const std::string& animation,
                                const std::string& where);
 

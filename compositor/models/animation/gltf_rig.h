@@ -29,9 +29,9 @@ struct GltfPart {
   std::vector<std::uint32_t> indices;  ///< Triangles of the model's mesh, by vertex of the file.
 };
 
-/// What moves the vertices of a glTF file: nodes, morph targets and skins (glTF 2.0, 3.7), with all
-/// attributes in memory, so that a shape needs no access to the file. Vertices are in the model's
-/// order after SetFrame() and SetVertices().
+/// Moves the vertices of a glTF file by its nodes, morph targets and skins (glTF 2.0, 3.7). All
+/// attributes are in memory, so that a shape needs no access to the file. Vertices are in the
+/// model's order after SetFrame() and SetVertices().
 class GltfRig : public ModelAnimation {
  public:
   /// `parts`: one per mesh of the model as read. `origin_m`: Model::origin_m as read. Errors as
@@ -70,7 +70,7 @@ class GltfRig : public ModelAnimation {
     bool normals_of_triangles = false;
     std::vector<std::uint32_t> indices;
     std::vector<MeshShape> targets;     ///< Differences from `rest`; either may be empty.
-    std::vector<float> weights;         ///< Of the targets, where the node has none.
+    std::vector<float> weights;         ///< Target weights, where the node has none.
     std::vector<Influence> influences;  ///< By vertex; empty without a skin.
     std::vector<std::uint32_t> influence_ends;
   };
@@ -93,7 +93,8 @@ class GltfRig : public ModelAnimation {
   void MakeTree(const tinygltf::Model& gltf);
   Affine MarkerFrom(const GltfPlacement& scene_from) const;
   std::vector<GltfPlacement> ScenePlacements(const GltfPose& pose) const;
-  /// Of each joint of a skin, and the identity for vertices without any.
+  /// One map per joint of a skin. The last map is that of the identity, for vertices without
+  /// joints.
   std::vector<Affine> MapsOf(const Skin& skin, const std::vector<GltfPlacement>& placements) const;
   MeshShape ShapeOf(const Part& part, const std::vector<float>& weights,
                     const std::vector<Affine>& maps) const;

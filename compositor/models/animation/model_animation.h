@@ -50,8 +50,9 @@ struct AnimatedModel {
 
 /// Loads a glTF file with an animation by its name, else by its number from 0 on. Axes, unit and
 /// origin are those of the pose without the animation. Holes of textures are not cut out. Errors as
-/// LoadModel(); an animation that the file does not have, that is damaged, that has no time between
-/// its key frames, or that takes the model farther than a file may extend.
+/// LoadModel(). Further errors: the file does not have the animation; the animation is damaged, or
+/// has no time between its key frames. It is also an error if the animation takes the model farther
+/// than a file may extend.
 Result<AnimatedModel> LoadAnimatedModel(const std::filesystem::path& file,
                                         const ModelOptions& options, const std::string& animation);
 
