@@ -44,10 +44,11 @@ class Composer {
   /// translation. The light on it and around it stays the same until SetLight().
   virtual void MoveModel(int placed_model, const Mat3& linear, Vec3 translation_m) = 0;
 
-  /// Changes the shape of a placed model that has a playback, from the next image on: positions and
-  /// normals as ModelAnimation::At() gives them, for the same triangles. Shadows and the bodies'
-  /// light follow at once, the light that they take from surfaces and give to them within some
-  /// images (docs/method/changing-surfaces.md). Ignored for other models.
+  /// Changes the shape of a placed model that has a playback, from the next image on. `shape` has
+  /// the positions and normals of ModelAnimation::At(), for the same triangles. Shadows and the
+  /// bodies' own light follow at once. The bodies' effect on the indirect illumination of other
+  /// surfaces follows within some images (docs/method/changing-surfaces.md). Ignored for other
+  /// models.
   virtual void SetShape(int placed_model, std::span<const MeshShape> shape) = 0;
 
   /// Samples per rendered pixel at edges: 4, or the renderer's maximum if that is lower.

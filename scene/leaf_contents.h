@@ -70,10 +70,10 @@ Result<void> CheckLeafQuantity(const LeafQuantity& quantity, double value,
 
 inline constexpr double kMinLeafRefraction = 1.1, kMaxLeafRefraction = 2.0;
 
-/// Chlorophyll in µg/cm² of a reading of the SPAD-502 meter, 0…82: 10^(SPAD^0.265) µmol/m²
-/// (Markwell, Osterman & Mitchell 1995, "Calibration of the Minolta SPAD-502 leaf chlorophyll
-/// meter", Photosynthesis Research 46), at 893 g/mol. Errors (input): out of range. `where`
-/// locates the reading.
+/// Chlorophyll in µg/cm² from a reading of the SPAD-502 meter, 0…82. The equation is
+/// 10^(SPAD^0.265) µmol/m², at 893 g/mol. Source: Markwell, Osterman & Mitchell 1995, "Calibration
+/// of the Minolta SPAD-502 leaf chlorophyll meter", Photosynthesis Research 46. Errors (input): out
+/// of range. `where` locates the reading.
 Result<double> ChlorophyllOfSpad(double spad, const std::string& where);
 
 }  // namespace pleinair::scene

@@ -128,7 +128,7 @@ Result<PlaceTime> CompletePlaceTime(const PlaceTimeFacts& facts, const std::stri
   return PlaceTime{*facts.latitude_deg, *facts.longitude_deg, height_m, *facts.start};
 }
 
-constexpr const char* kOurFamily = "sg";  // Of markers beside anchors, if nothing is stated.
+constexpr const char* kOurFamily = "sg";  // Default family of a marker with anchors.
 
 Result<std::vector<AnchorDescription>> CompleteAnchors(const std::vector<AnchorFacts>& facts,
                                                        const MarkerDescription& marker,

@@ -12,10 +12,10 @@
 
 namespace pleinair::session {
 
-/// A marker beside the reference marker, and where it is.
+/// An anchor (a marker that does not move against the reference marker), with its pose.
 struct PlacedAnchor {
   MarkerName marker;
-  std::int64_t frames = 0;  ///< That show it.
+  std::int64_t frames = 0;  ///< Number of frames that show it.
   bool is_given = false;    ///< Its pose is the scene's.
   /// Nothing: no frame shows it beside a placed marker, so it is not used.
   std::optional<Transform<Marker, Marker>> reference_from_anchor;
@@ -44,9 +44,9 @@ MarkerName NameOf(const scene::AnchorDescription& anchor);
 void ScaleAnchors(const scene::SceneDescription& scene,
                   std::vector<tracker::MarkerObservation>* observations);
 
-/// Places the anchors of a scene that have no pose (tracker/pose/anchor_fit.h), estimates the pose
-/// of each frame from all markers that it shows, and fills short gaps (path_gaps.h). `camera`: the
-/// lens of the frames.
+/// Estimates the trajectory of the camera from all markers of a scene. First it places the anchors
+/// that have no pose (tracker/pose/anchor_fit.h). Then it estimates the pose of each frame from all
+/// markers that it shows. It fills short gaps (path_gaps.h). `camera`: the lens of the frames.
 AnchoredPath FollowAnchors(const CameraModel& camera, const scene::SceneDescription& scene,
                            const MarkerTracks& tracks, const MarkerName& reference);
 

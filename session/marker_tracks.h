@@ -80,7 +80,7 @@ class MarkerTracks {
   const std::map<MarkerName, std::vector<Observation>>& tracks() const { return tracks_; }
 
   std::int64_t frames() const { return frames_; }
-  /// Of all frames, with and without markers.
+  /// Times of all frames, with and without markers.
   const std::vector<FrameTime>& frame_times() const { return frame_times_; }
   /// Frames with two or more observations of one marker.
   std::int64_t frames_with_duplicates() const { return frames_with_duplicates_; }

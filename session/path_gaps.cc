@@ -84,7 +84,7 @@ class GapMotion {
   double Seconds(std::int64_t timestamp_ns) const {
     return static_cast<double>(timestamp_ns - start_ns_) * kPerNanosecond;
   }
-  /// Of the motion at a time with that at the poses' times.
+  /// Covariances of the motion at `at_s` with that at the poses' times.
   Eigen::VectorXd Covariances(double at_s) const {
     return (-0.5 * ((times_s_.array() - at_s) / kScale_s).square()).exp();
   }

@@ -162,7 +162,7 @@ class Pipeline {
   /// How the light of a frame differs from the estimated one.
   FollowedLight FollowedIn(const Observation& seen) const;
 
-  CameraModel camera_, output_camera_;  // Of the frames, and of composed images.
+  CameraModel camera_, output_camera_;  // Lenses of frames and of composed images.
   scene::SceneDescription scene_;
   bool hands_in_front_;
   bool follows_light_;

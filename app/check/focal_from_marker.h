@@ -9,18 +9,18 @@
 
 namespace pleinair::app {
 
-/// The focal length that one view of a square shows, over that of the calibration.
+/// Ratio of the focal length estimated from one view of a square to that of the calibration.
 struct FocalRatio {
   double log_ratio = 0.0;
   double error = 0.0;  ///< Standard deviation of log_ratio.
 };
 
-/// Estimates it from the corners of a square, in pixels and in order around it. With the
-/// homography H = [h1 h2 h3] from the square to undistorted normalised coordinates and the ratio s
-/// of both focal lengths, h1 and h2 are orthogonal and equally long after diag(1/s, 1/s, 1) (Zhang
-/// 2000, Eqs. 3 and 4): two equations, linear in 1/s². The centre is that of the calibration. The
-/// error is that of corners with 0.1 px of noise. Nullopt: a view from straight above, which shows
-/// no focal length; corners without a homography.
+/// Estimates the focal ratio from the corners of a square, in pixels and in order around it. The
+/// homography H = [h1 h2 h3] maps the square to undistorted normalised coordinates. s is the ratio
+/// of both focal lengths. After diag(1/s, 1/s, 1), h1 and h2 are orthogonal and equally long (Zhang
+/// 2000, Eqs. 3 and 4). These are two equations, linear in 1/s². The centre is that of the
+/// calibration. The error is that of corners with 0.1 px of noise. Nullopt: the corners have no
+/// homography, or the view is from straight above, which shows no focal length.
 std::optional<FocalRatio> FocalRatioFromSquare(const CameraModel& camera,
                                                const std::array<Vec2, 4>& corners_px);
 

@@ -12,7 +12,7 @@
 
 namespace pleinair::app {
 
-/// What one frame shows of the marker of the scene.
+/// Measurements of the scene's marker in one frame.
 struct FrameFacts {
   std::int64_t index = 0;
   double edge_px = 0.0;  ///< Mean edge in the image.
@@ -22,7 +22,7 @@ struct FrameFacts {
   std::optional<double> blur_px;
   /// Median light of the white margin, linear, 1 = brightest pixel; nothing: not in view.
   std::optional<double> white;
-  double clipped_share = 0.0;  ///< Of the samples on the white margin.
+  double clipped_share = 0.0;  ///< Share of the white-margin samples that are clipped.
   std::optional<FocalRatio> focal;
 };
 

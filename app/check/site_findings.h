@@ -23,12 +23,12 @@ struct SiteFinding {
 /// "good", "doubtful", "bad", "not checked".
 const char* VerdictText(SiteVerdict verdict);
 
-/// What is known of a site.
+/// Measurements of a site: the input of JudgeSite().
 struct SiteFacts {
   std::vector<FrameFacts> frames;  ///< Those that show the marker.
   std::int64_t looked_at = 0;      ///< All frames of the sample.
   std::string marker;              ///< Name of the marker, "sg_17"; empty: none was seen.
-  double sun_elevation_deg = 0.0;  ///< Of the first frame.
+  double sun_elevation_deg = 0.0;  ///< At the time of the first frame.
   std::string lens_guess;          ///< Not empty: the lens is assumed, and from what.
   std::optional<compositor::MeasuredLight> light;  ///< Nothing: no objects, or no phantoms.
   bool has_objects = false;

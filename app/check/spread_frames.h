@@ -10,8 +10,8 @@
 
 namespace pleinair::app {
 
-/// Delivers some frames of a recording, spread evenly over it, with their own indices and time
-/// stamps. FrameCount() is their number.
+/// Samples frames evenly over a recording. They keep their own indices and time stamps.
+/// FrameCount() is their number.
 class SpreadFrames : public devices::FrameSource {
  public:
   /// At most `most` frames; all where the number of frames is not known.
@@ -24,7 +24,7 @@ class SpreadFrames : public devices::FrameSource {
  private:
   std::unique_ptr<devices::FrameSource> all_;
   std::optional<std::vector<std::int64_t>> wanted_;
-  std::size_t next_ = 0;  // Of the wanted ones.
+  std::size_t next_ = 0;  // Index in wanted_.
 };
 
 }  // namespace pleinair::app

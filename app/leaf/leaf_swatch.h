@@ -5,8 +5,9 @@
 
 namespace pleinair::app {
 
-/// A picture of a leaf under D65: its sunlit side on the left, and on the right the side away from
-/// the light, which shows what the leaf transmits. The frame is a white diffuser in the same light.
+/// Draws both sides of a leaf under D65. The sunlit side is on the left. The side away from the
+/// light is on the right: it shows what the leaf transmits. The frame is a white diffuser in the
+/// same light.
 RgbImage LeafSwatch(const scene::Leaf& leaf);
 
 }  // namespace pleinair::app

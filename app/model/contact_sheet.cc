@@ -27,7 +27,7 @@ constexpr int kViewWidth_px = 640, kViewHeight_px = 480;
 constexpr double kPerson_m = 1.75;
 // The person is drawn between these multiples of the model's diagonal.
 constexpr double kMinPerson = 0.05, kMaxPerson = 3.0;
-// Of the half height of a view: the half size of what it shows.
+// Half height of a view over the half size of what it shows.
 constexpr double kMargin = 1.15;
 // Distance of the camera in half sizes of what it shows.
 constexpr double kDistance = 4.5;
@@ -36,7 +36,7 @@ constexpr int kRaysPerVertex = 128;
 
 struct View {
   const char* name;
-  double azimuth_deg;  ///< Of the camera: 0 in front (−y), 90 at the right (+x).
+  double azimuth_deg;  ///< Camera azimuth: 0 in front (−y), 90 at the right (+x).
   double elevation_deg;
 };
 constexpr std::array<View, 4> kViews{
@@ -51,7 +51,7 @@ constexpr std::array<std::array<double, 2>, 21> kPersonOutline{
 
 /// The model's size when it is drawn with a diagonal of one.
 struct Layout {
-  double scale = 1.0;   ///< Of the model.
+  double scale = 1.0;   ///< Scale factor of the model.
   Vec3 half;            ///< Half size of the model's box, scaled.
   double person = 0.0;  ///< Height of the person, scaled; 0: not drawn.
   double radius = 0.0;  ///< Half size of what a view shows.

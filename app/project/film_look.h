@@ -21,10 +21,10 @@ struct KnownLens {
   std::string from;  ///< For a comment: "camera.json", "the focal length in the tags of walk.mov".
 };
 
-/// The lens of images of this size: from the focal length in the tags, else that of a usual phone,
-/// 26 mm on 35 mm film (FocalFrom35mm()). The centre is that of the image, without distortion.
-/// `file` is the name in `from`. A film is often a crop of what the tags describe: the error is 5
-/// to 20 %.
+/// The lens assumed for images of this size. The focal length is that of the tags. Without it, it
+/// is that of a usual phone: 26 mm on 35 mm film (FocalFrom35mm()). The centre is that of the
+/// image; there is no distortion. `file` is the name in `from`. A film is often a crop of what the
+/// tags describe: the error is 5 to 20 %.
 KnownLens AssumedLens(ImageSize size, const devices::FilmTags& tags, const std::string& file);
 
 /// The markers of one frame, with the edge of each marker as the unit of length.
@@ -33,7 +33,7 @@ struct LookedAtFrame {
   std::vector<tracker::MarkerObservation> markers;
 };
 
-/// A look at some frames of a film, or at a photograph.
+/// Markers detected in some frames of a film, or in a photograph.
 struct FilmLook {
   std::filesystem::path file;
   bool is_photo = false;
@@ -52,8 +52,8 @@ struct LookOptions {
   std::optional<std::string> family{};  ///< In place of "sg" and "tag36h11".
 };
 
-/// Opens a film or a photograph, and looks for markers in at most 12 of its frames: fewer of large
-/// ones, so that they have some 25 million pixels together. Errors: those of OpenVideo() and
+/// Detects markers in at most 12 frames of a film, or in a photograph. Large frames are
+/// fewer: together they have some 25 million pixels. Errors: those of OpenVideo() and
 /// DecodeImageFile(); a lens for another size; an unknown family of markers.
 Result<FilmLook> LookAt(const std::filesystem::path& file, const LookOptions& options);
 

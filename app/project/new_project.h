@@ -30,10 +30,10 @@ struct NewProject {
   std::vector<std::string> warnings;  ///< About the first picture, one sentence each.
 };
 
-/// Looks at the files, collects the scene, composes the first picture and writes the project.
-/// `questions`: null where nobody can be asked. Errors: an unreadable file, no marker in view, a
-/// value that nobody states, a folder that cannot be written, an unreadable model; no OpenGL 4.5
-/// (system). After an error nothing was written.
+/// Makes a project: collects the scene from the files, composes the first picture and writes the
+/// folder. `questions`: null where nobody can be asked. Errors: an unreadable file or model, no
+/// marker in view, a value without a source, a folder that cannot be written. Error
+/// (system): no OpenGL 4.5. After an error nothing was written.
 Result<NewProject> MakeProject(const NewProjectRequest& request, Questions* questions);
 
 }  // namespace pleinair::app

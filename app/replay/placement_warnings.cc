@@ -21,13 +21,13 @@ using compositor::ModelBounds;
 using compositor::PlacedModel;
 
 constexpr double kFarFromMarker_m = 1000.0;
-// Of the camera's distance from the marker.
+// Size of a model over the camera's distance from the marker.
 constexpr double kTooLarge = 100.0, kTooSmall = 1e-3;
 // Frames and points that are tested for phantoms in front of an object.
 constexpr std::size_t kMaxFrames = 24, kMaxPoints = 96;
 // By how much the lens may widen the view against a pinhole.
 constexpr double kDistortionMargin = 1.5;
-// Of the distance: phantoms nearer than this hide a point.
+// Share of a point's distance: phantoms nearer than this hide the point.
 constexpr double kInFront = 0.995;
 
 Vec3 Placed(const PlacedModel& placed, Vec3 in_model) {

@@ -17,13 +17,14 @@ struct RecordedViews {
   const std::vector<session::Observation>& path;
 };
 
-/// Warnings about models that are probably not placed as meant, at most one sentence each, with the
-/// way out:
-/// - in survey coordinates, with the marker more than a kilometre away;
-/// - more than 100 times larger than the camera's distance from the marker, or 1,000 times smaller,
-///   without a unit in the scene;
-/// - y-up by shape or header (compositor::LooksYUp), without an axis in the scene;
-/// - an object in view in no frame, or hidden by phantoms in every frame.
+/// Warns of models that are probably not placed as meant. A model gets at most one warning: one
+/// sentence, with the remedy. The cases are:
+/// - The model is in survey coordinates, with the marker more than a kilometre away.
+/// - An object is more than 100 times larger than the camera's distance from the marker, or 1,000
+///   times smaller. The scene does not state its unit.
+/// - The model is y-up by shape or header (compositor::LooksYUp). The scene does not state its
+///   axis.
+/// - An object is in view in no frame, or phantoms hide it in every frame.
 ///
 /// `models`: the scene's phantoms, then its objects. `phantoms` may be null: nothing is hidden.
 std::vector<std::string> PlacementWarnings(const std::vector<compositor::PlacedModel>& models,

@@ -25,12 +25,12 @@ const LightSpectrum& D65Spectrum();
 /// Color of a spectrum under the CIE 1931 observer, linear Rec.709, not clipped to the gamut.
 LinearRgb ColorOfSpectrum(const LightSpectrum& spectrum);
 
-/// A spectrum of daylight with the chromaticity of `light` (linear Rec.709): that of the sun
-/// outside the atmosphere times exp(c₁ u + c₂ u²), u = (λ − 560 nm) / 160 nm. Scattering by air
-/// and haze, and thus the light of sun and sky, have this form; the absorption by ozone has not.
-/// Colors of leaves differ by less than 0.01 from those under the spectra of the atmosphere model
-/// (tests/compositor/leaf/leaf_color_test.cc). Channels below 2 % of the largest count as 2 %;
-/// black and values that are not finite give D65.
+/// Returns a spectrum of daylight with the chromaticity of `light` (linear Rec.709). It is the
+/// spectrum of the sun outside the atmosphere times exp(c₁ u + c₂ u²), u = (λ − 560 nm) / 160 nm.
+/// Scattering by air and haze, and thus the light of sun and sky, have this form. The absorption by
+/// ozone has not. Colors of leaves differ by less than 0.01 from those under the spectra of the
+/// atmosphere model (tests/compositor/leaf/leaf_color_test.cc). Channels below 2 % of the largest
+/// count as 2 %. Black and values that are not finite give D65.
 LightSpectrum DaylightSpectrum(LinearRgb light);
 
 }  // namespace pleinair::compositor

@@ -6,11 +6,11 @@
 
 namespace pleinair::compositor {
 
-/// Mean transmittance of a smooth dielectric surface for unpolarized light that arrives evenly from
-/// within the cone of half-angle `cone` (0…90°) around the normal: t(a, n) of Stern 1964
-/// ("Transmission of isotropic radiation across an interface between two dielectrics", Applied
-/// Optics 3) in the form of Allen 1973 ("Transmission of isotropic light across a dielectric
-/// surface in two and three dimensions", JOSA 63). t(0, n) = 4n / (n + 1)². `refractive_index` > 1.
+/// Mean transmittance t(a, n) of a smooth dielectric surface for unpolarized light. The light is
+/// isotropic within a cone around the normal, of half-angle a = `cone` (0…90°). Source: Stern 1964,
+/// "Transmission of isotropic radiation across an interface between two dielectrics", Applied
+/// Optics 3. Form: Allen 1973, "Transmission of isotropic light across a dielectric surface in two
+/// and three dimensions", JOSA 63. At the normal, t(0, n) = 4n / (n + 1)². `refractive_index` > 1.
 double ConeTransmittance(Radians cone, double refractive_index);
 
 /// Transmittance of an absorbing layer for light from all sides of a hemisphere:

@@ -32,14 +32,16 @@ LeafBand InterpolatedLeafBand(double wavelength_nm);
 /// Optical depth of all plates of a leaf.
 double OpticalDepth(const LeafBand& band, const scene::LeafContents& contents);
 
-/// Reflectance and transmittance of N plates (Stokes 1862, "On the intensity of the light reflected
-/// from or transmitted through a pile of plates", in the form of Jacquemoud & Baret 1990,
-/// "PROSPECT: a model of leaf optical properties spectra", Remote Sensing of Environment 34). The
-/// first plate has R, T for the cone of 40°, the others r, t for the hemisphere:
+/// Reflectance and transmittance of a stack of N = `structure` plates. Source: Stokes 1862, "On the
+/// intensity of the light reflected from or transmitted through a pile of plates". Form: Jacquemoud
+/// & Baret 1990, "PROSPECT: a model of leaf optical properties spectra", Remote Sensing of
+/// Environment 34.
+/// The first plate has R, T for the cone of 40°, the others r, t for the hemisphere:
 ///     Δ = √((1 + r + t)(1 + r − t)(1 − r + t)(1 − r − t))
-///     a = (1 + r² − t² + Δ) / 2r,   β = (2t / (1 − r² + t² + Δ))^(N−1)
-///     R' = a (1 − β²) / (a² − β²),  T' = β (a² − 1) / (a² − β²)
-/// and without absorption T' = t / (t + (1 − t)(N − 1)). `optical_depth` is that of all plates.
+///     a = (1 + r² − t² + Δ) / 2r,   β = (2t / (1 − r² + t² + Δ))^(N−1).
+/// The plates behind the first have
+///     R' = a (1 − β²) / (a² − β²),  T' = β (a² − 1) / (a² − β²).
+/// Without absorption, T' = t / (t + (1 − t)(N − 1)). `optical_depth` is that of all plates.
 LeafOptics StackOptics(const LeafBand& band, double optical_depth, double structure);
 
 /// PROSPECT-D at one wavelength.

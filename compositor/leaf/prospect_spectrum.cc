@@ -28,7 +28,7 @@ struct SpectrumTable {
 struct SpectrumLeaf {
   std::array<double, kLeafConstituents> contents{};  ///< Divided by N.
   double plates_behind = 0.0;                        ///< N − 1.
-  std::array<double, 18> series{};                   ///< Of E₁, from k¹ on at index 1.
+  std::array<double, 18> series{};                   ///< Coefficients of E₁; k¹ at index 1.
 };
 
 }  // namespace pleinair::compositor

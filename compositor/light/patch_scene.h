@@ -29,7 +29,7 @@ struct PatchScene {
   struct MeshSide {
     SurfaceMesh mesh;
     std::array<float, 3> albedo{};  ///< Linear; mean of the texture; a metal's color.
-    /// Of an open virtual surface, from one side to the other; linear, mean of the texture.
+    /// From one side of an open virtual surface to the other; linear, mean of the texture.
     std::array<float, 3> transmittance{};
     std::uint32_t first_patch = 0, patch_count = 0;
     int twin = -1;                                 ///< Index of the other side's mesh side.
@@ -57,7 +57,7 @@ struct PatchScene {
   std::vector<PatchSample> surface_samples;        ///< Grouped by patch.
   std::vector<std::uint32_t> surface_sample_ends;  ///< One past each patch's last surface sample.
   std::unique_ptr<RayScene> rays;
-  std::vector<Vec3> changing_middles;  ///< Of the objects that change their shape.
+  std::vector<Vec3> changing_middles;  ///< Centres of the objects that change their shape.
   std::unique_ptr<RayScene> foliage;   ///< Phantoms' foliage; occludes views; may be null.
 
   bool Transmits(const Face& face) const {

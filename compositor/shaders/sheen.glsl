@@ -4,7 +4,7 @@
 // Friendly Microfacet Sheen BRDF"; KHR_materials_sheen). Arithmetic only; also compiled as C++
 // (gl/glsl_as_cpp.h, tests/compositor/shaders/ggx_test.cc).
 
-const float kMinSheenRoughness = 0.2f;  // Of the table below; smoother cloth is narrower than it.
+const float kMinSheenRoughness = 0.2f;  // Minimum of the table below; smoother cloth is narrower.
 
 // Estevez & Kulla 2017, Eq. (2), with alpha = roughness².
 float DistributionCharlie(float n_dot_h, float alpha) {
@@ -19,8 +19,8 @@ float VisibilityAshikhmin(float n_dot_v, float n_dot_l) {
   return 1.0f / max(4.0f * (n_dot_l + n_dot_v - n_dot_l * n_dot_v), 1e-4f);
 }
 
-// Reflectance under uniform light from all sides: integrals of the functions above, at most 1. Rows:
-// roughness 0.2 to 1 in fifths. Columns: square root of n·v, 0 to 1 in eighths.
+// Reflectance under uniform light from all sides: integrals of the functions above, at most 1.
+// Rows: roughness 0.2 to 1 in fifths. Columns: square root of n·v, 0 to 1 in eighths.
 const int kSheenRoughnesses = 5, kSheenAngles = 9;
 const float kSheenReflected[kSheenRoughnesses * kSheenAngles] = {
     1.0000, 1.0000, 1.0000, 0.6996, 0.3458, 0.1320, 0.0333, 0.0037, 0.0000,

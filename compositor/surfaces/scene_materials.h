@@ -29,8 +29,8 @@ class SceneMaterials {
   const PlacedModel& Placed(int placed_model) const {
     return scene_[static_cast<std::size_t>(placed_model)];
   }
-  /// Binds a material's base color to unit 0, metallic and roughness to unit 1, its normal map to
-  /// unit 2 and its emission to unit 3. A missing texture is replaced by white.
+  /// Binds a material's textures. Unit 0 has the base color, unit 1 metallic and roughness, unit 2
+  /// the normal map, unit 3 the emission. A missing texture is replaced by white.
   void BindTextures(int placed_model, const Material& material) const;
 
   std::size_t model_count() const { return scene_.size(); }
@@ -55,7 +55,7 @@ class SceneMaterials {
   std::vector<PlacedModel> scene_;
   bool has_textures_ = false, has_alpha_ = false, has_gloss_ = false, has_details_ = false;
   bool has_translucent_ = false;
-  std::map<std::pair<int, int>, LeafTints> tints_;  // By placed model and material: of leaves.
+  std::map<std::pair<int, int>, LeafTints> tints_;  // Leaves, by placed model and material.
   gl::GlTexture white_;
   std::vector<std::vector<gl::GlTexture>> model_textures_;  // One list per placed model.
 };

@@ -50,7 +50,7 @@ class SurfacePlacement {
   /// Computes casters and bounds at the models' current places.
   void Place(std::span<const SurfaceBuffers> surfaces);
 
-  /// Of a surface.
+  /// Bounds and changes of a surface.
   struct Shape {
     shadows::Box bounds;         // Where it was lit.
     std::uint64_t revision = 0;  // As shadows::ShadowCaster.
@@ -61,7 +61,7 @@ class SurfacePlacement {
   std::vector<glm::dmat4> moved_;  // One per placed model.
   std::vector<shadows::ShadowCaster> casters_, phantom_casters_;
   shadows::Box object_bounds_, bounds_;
-  std::uint64_t revision_ = 0;  // Of the surfaces and their shapes, which shadow maps follow.
+  std::uint64_t revision_ = 0;  // Counts new surfaces and shapes, which shadow maps follow.
 };
 
 }  // namespace pleinair::compositor

@@ -34,8 +34,8 @@ class FilmPictures {
   FilmColors colors_;
   DisplayTurn turn_;
   LibavPointer<SwsContext> scaler_;
-  std::vector<float> light_;           // Of 16-bit signals; empty without a conversion.
-  std::vector<std::uint8_t> encoded_;  // Of light; its square root in steps of 1 / (size - 1).
+  std::vector<float> light_;           // Light of each 16-bit signal. Empty without a conversion.
+  std::vector<std::uint8_t> encoded_;  // 8-bit value; index: light's square root × (size - 1).
 };
 
 }  // namespace pleinair::devices

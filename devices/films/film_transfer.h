@@ -28,8 +28,8 @@ double PqFromDisplay_cd_m2(double display_cd_m2);
 /// 267.84 E, and G1886 = 100 E'^2.4. E is 1 at 10000 cd/m².
 double LightFromPq(double signal);
 
-/// Scene light of HDR reference white, which becomes 1 of SDR: 75 % of the HLG signal and 203
-/// cd/m², 58 % of PQ (ITU-R BT.2408-7, Table 1).
+/// Scene light of HDR reference white, which becomes 1 of SDR. It is 75 % of the HLG signal. It is
+/// 58 % of the PQ signal, 203 cd/m² (ITU-R BT.2408-7, Table 1).
 double HlgReferenceWhite();
 double PqReferenceWhite();
 

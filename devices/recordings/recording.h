@@ -44,20 +44,28 @@ struct Recording {
   std::unique_ptr<FrameSource> frames;
 };
 
-/// Opens one of three kinds of recordings: a folder in the project's format (recording.json,
-/// scene.json or both; docs/guide/reference/recordings.md), an EuRoC-style folder
-/// (mav0/cam0/data.csv and sensor.yaml, at any of these levels), or a plain video file with
-/// `options.calibration`. Every frame must have the calibration's size; for a plain video, it is
-/// scaled and turned where possible (FitCamera()).
+/// Opens one of three kinds of recordings:
+/// - A folder in the project's format has recording.json, scene.json or both
+///   (docs/guide/reference/recordings.md).
+/// - An EuRoC-style folder has mav0/cam0/data.csv and sensor.yaml. `path` may be any of these
+///   levels.
+/// - A plain video file comes with `options.calibration`.
 ///
-/// The scene of a folder is its scene.toml, else its scene.json, else the place, time and marker in
-/// recording.json together with phantom.obj and object.obj in the same folder. Ground truth in
-/// these files is never read.
+/// Every frame must have the calibration's size. For a plain video, the calibration is scaled and
+/// turned where possible (FitCamera()).
 ///
-/// Errors, found before the first frame is decoded: files that cannot be opened; JSON, TOML or YAML
-/// that is truncated or invalid; images that are missing from the sequence, truncated, or of
-/// another size than the calibration's; a truncated MP4, MOV or AVI. Next() reports damage inside a
-/// video, and truncation of other containers.
+/// The scene of a folder is its scene.toml, else its scene.json. Without both, it is the place,
+/// time and marker in recording.json, with phantom.obj and object.obj in the same folder. Ground
+/// truth in these files is never read.
+///
+/// Errors, found before the first frame is decoded:
+/// - Files cannot be opened.
+/// - JSON, TOML or YAML is truncated or invalid.
+/// - Images are missing from the sequence, are truncated, or have another size than the
+///   calibration's.
+/// - An MP4, MOV or AVI file is truncated.
+///
+/// Next() reports damage inside a video, and truncation of other containers.
 Result<Recording> OpenRecording(const std::filesystem::path& path,
                                 const RecordingOptions& options = {});
 

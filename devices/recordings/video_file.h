@@ -40,12 +40,17 @@ struct OpenedVideo {
 /// the first frame that its edit list shows. Rotation and mirroring of the metadata (phones) are
 /// applied, and its colors become Rec.709 primaries (FilmPictures).
 ///
-/// All packets are read once, without decoding, so that the number of frames is exact and a
+/// All packets are read once, without decoding. The number of frames is therefore exact, and a
 /// truncated MOV, MP4, Matroska or AVI file is found here. FLV and MPEG-TS do not state their
-/// lengths: there it is found if it ends within a frame. Errors: no file, empty, format unknown to
-/// libavformat, truncated, another size, a rotation by other than multiples of 90°, colors that are
-/// not supported, two frames at one time, no frame rate; from Next(): damage inside the video, or
-/// fewer frames than `frame_count`.
+/// lengths: there, truncation is found if the file ends within a frame.
+///
+/// Errors:
+/// - The file is missing, empty, truncated, or of a format unknown to libavformat.
+/// - The size is another than that of `facts`.
+/// - The rotation is no multiple of 90°, or the colors are not supported.
+/// - Two frames have one time, or there is no frame rate.
+///
+/// Next() reports damage inside the video, or fewer frames than `frame_count`.
 Result<OpenedVideo> OpenVideo(const std::filesystem::path& file, const VideoMetadata& facts);
 
 }  // namespace pleinair::devices

@@ -50,8 +50,8 @@ TEST(ComposerDetail, MultipliesTheColorsOfVertices) {
 }
 
 TEST(ComposerDetail, TurnsBumpsToTheSunInTheSouth) {
-  // The square under a map whose every bump faces `bump` (x right in the texture, y up) is as
-  // bright as one that faces so: the sun is 45° high in the south. The uniform sky hardly counts.
+  // Every bump of the square's map faces `bump` (x right in the texture, y up). The square is as
+  // bright as one that faces so. The sun is 45° high in the south. The uniform sky hardly counts.
   const auto seen = [](Vec3 bump, double turn_deg, bool back) {
     Model square = Square(0.6F);
     // Turned texture coordinates turn the bumps with them.

@@ -9,8 +9,8 @@ namespace pleinair::e2e {
 /// Frames of the films below.
 inline constexpr int kPhoneFrames = 3;
 
-/// A film of the bundled recording's first frames as a phone held upright writes it: turned, with a
-/// pause after the second frame, sound, place and date.
+/// A film of the bundled recording's first frames, as a phone held upright writes it. It is turned,
+/// has a pause after the second frame, sound, place and date.
 tests::MadeFilm PhoneFilm();
 
 /// Writes it in sRGB and H.264.

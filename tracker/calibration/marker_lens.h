@@ -16,7 +16,7 @@ namespace pleinair::tracker {
 
 /// One marker in one frame of a film.
 struct MarkerView {
-  std::string name;                ///< Of the frame, for messages.
+  std::string name;                ///< Name of the frame, for messages.
   std::array<Vec2, 4> corners_px;  ///< Clockwise from top-left on the upright marker.
   CornerCovariance covariance_px2;
 };
@@ -30,7 +30,7 @@ struct MarkerLensDeviations {
 struct MarkerLens {
   CameraModel camera;  ///< fx = fy; distortion k1 and k2.
   MarkerLensDeviations deviations;
-  double chi2 = 0.0;              ///< Of the corners, per degree of freedom.
+  double chi2 = 0.0;              ///< χ² of the corners per degree of freedom.
   double max_tilt_deg = 0.0;      ///< Between marker and image plane.
   double distance_ratio = 1.0;    ///< Largest distance of a marker over the smallest.
   std::vector<std::size_t> used;  ///< Indices of the views that were fitted.
@@ -39,14 +39,14 @@ struct MarkerLens {
 /// Fewer views than this are rejected.
 constexpr std::size_t kMinMarkerViews = 8;
 
-/// Estimates the lens by bundle adjustment: the focal length f = fx = fy, the principal point c,
-/// the distortion k1 and k2, and a pose for each view minimise
+/// Estimates the lens by bundle adjustment. The unknowns are the focal length f = fx = fy, the
+/// principal point c, the distortion k1 and k2, and the pose of each view. They minimise
 ///
-///   Σ_views r_vᵀ (C_v + σ₀² I)⁻¹ r_v + |c − c₀|² / σ_c² + k1² / σ_k² + k2² / σ_k²,
+///   Σ_views r_vᵀ (C_v + σ₀² I)⁻¹ r_v + |c − c₀|² / σ_c² + k1² / σ_k² + k2² / σ_k².
 ///
-/// where r_v are the eight coordinates of a view's corners less their projections and C_v is their
+/// r_v are the eight coordinates of a view's corners less their projections. C_v is their
 /// covariance (Triggs et al. 2000, "Bundle adjustment", §3; priors as in §9.3). c₀ is the centre of
-/// the image, σ_c is 1.5 % of its longer side, σ_k is 0.3, and σ₀ is 0.03 px: corners of printed
+/// the image. σ_c is 1.5 % of its longer side, and σ_k is 0.3. σ₀ is 0.03 px: corners of printed
 /// markers are not more accurate. The size of the markers does not matter.
 ///
 /// The deviations come from the normal equations with the poses eliminated. They are multiplied by

@@ -18,7 +18,7 @@
 namespace pleinair::tracker {
 
 struct MarkerViewOptions {
-  std::vector<std::string> families{"sg", "tag36h11"};  ///< Of the markers to look for.
+  std::vector<std::string> families{"sg", "tag36h11"};  ///< Marker families to detect.
   std::size_t max_views = 120;
   /// The images are consecutive frames: those in which the marker moves fast are left out.
   bool consecutive_frames = true;
@@ -49,7 +49,7 @@ class MarkerViewCollector {
     int which = 0;  ///< Index in markers_.
     Corners corners_px{};
     GreyImage cut_out;
-    int left = 0, top = 0;  ///< Of the cut-out in the image.
+    int left = 0, top = 0;  ///< Place of the cut-out in the image.
   };
   /// A marker and where it was seen last.
   struct Marker {

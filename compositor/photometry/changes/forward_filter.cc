@@ -14,8 +14,8 @@
 namespace pleinair::compositor {
 namespace {
 
-// Rounds of one frame, and the factors on the noise with which they begin: at first every probe
-// counts, or a shadow that stays as it was would pass for an outlier.
+// Max. rounds of one frame, and factors on the noise in the first rounds. With them, every probe
+// counts at first. Otherwise a shadow that stays as it was would pass for an outlier.
 constexpr int kMaxRounds = 12;
 constexpr std::array kNoiseScales{4.0, 2.0};
 // Change of brightness from which a frame's fit has more than one start, and the least sun of one.
@@ -51,7 +51,7 @@ double Mean(const std::array<double, 3>& values) { return (values[0] + values[1]
 
 double Square(double x) { return x * x; }
 
-/// Of log(sun over sky).
+/// Variance of log(sun over sky).
 double Variance(const LogLightMatrix& covariance) {
   return RatioDirection().dot(covariance * RatioDirection());
 }
@@ -164,7 +164,7 @@ ForwardFilter::Equations ForwardFilter::AddUp(const std::vector<Reading>& readin
 
 std::vector<LogLight> ForwardFilter::StartsOf(const std::vector<Reading>& readings) const {
   const LogLight factors = light_.array().exp();
-  std::array<std::vector<double>, 2> changes, shares;  // Of probes in the sun and in shade.
+  std::array<std::vector<double>, 2> changes, shares;  // Sunlit and shaded probes.
   for (const Reading& reading : readings) {
     const Probe& probe = probes_[reading.probe];
     const bool sunlit = probe.may_be_shaded && probe.log_odds_shade < 0.0;

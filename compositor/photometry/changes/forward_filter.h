@@ -15,19 +15,19 @@
 
 namespace pleinair::compositor {
 
-/// The filter of ForwardLight.
+/// The filter of ForwardLight: estimates sun and sky of each frame from probes.
 ///
-/// Each probe has a normal distribution of its albedo, learnt from the frames so far, once as the
-/// phantoms light it and once in unmodelled shade, with the odds between both. A frame's light is
-/// the maximum a posteriori under these albedos and the random walk (LightWalk), by Gauss-Newton
-/// steps with reweighting: an iterated Kalman filter (B. M. Bell, F. W. Cathey: The iterated Kalman
-/// filter update as a Gauss-Newton method, 1993). Then each albedo takes the frame's reading. An
-/// albedo that was learnt under an uncertain light hands its error on to the frames that it
-/// explains.
+/// Each probe has a normal distribution of its albedo, learnt from the frames so far. It has one as
+/// the phantoms light it, one in unmodelled shadow, and the odds between both. A frame's light is
+/// the maximum a posteriori under these albedos and the random walk (LightWalk). Gauss-Newton steps
+/// with reweighting find it. This is an iterated Kalman filter (B. M. Bell, F. W. Cathey: The
+/// iterated Kalman filter update as a Gauss-Newton method, 1993). Then each albedo takes the
+/// frame's reading. An albedo that was learnt under an uncertain light hands its error on to the
+/// frames that it explains.
 class ForwardFilter {
  public:
-  /// Starts anew: all probes go. `light` is that of the next frame, `log_ratio_error` the standard
-  /// deviation of its sun over sky.
+  /// Restarts the filter and removes all probes. `light` is that of the next frame.
+  /// `log_ratio_error` is the standard deviation of its sun over sky.
   void Start(const LogLight& light, double log_ratio_error);
 
   /// These are as in ForwardLight.
@@ -88,11 +88,12 @@ class ForwardFilter {
                            const LogLight& factors, double noise_scale) const;
   Equations AddUp(const std::vector<Reading>& readings, const LogLight& light,
                   double noise_scale) const;
-  /// Lights with which a frame's fit begins: that of the frame before, one with another sun, and
-  /// one by the brightness of probes in the sun and in shade.
+  /// Lights with which a frame's fit begins: that of the frame before, and one with another sun. A
+  /// further one follows from the brightness of sunlit and of shaded probes.
   std::vector<LogLight> StartsOf(const std::vector<Reading>& readings) const;
   Fitted FitFrom(const LogLight& start, const std::vector<Reading>& readings, double seconds) const;
-  /// Fits the light of a frame to readings of known probes; returns what they alone say of it.
+  /// Fits the light of a frame to readings of known probes. Returns the inverse covariance by these
+  /// readings alone.
   LogLightMatrix Fit(const std::vector<Reading>& readings, double seconds);
   void TestForChange(const std::vector<Reading>& readings);
   void Learn(const std::vector<Reading>& readings);
@@ -105,8 +106,8 @@ class ForwardFilter {
   LogLightMatrix covariance_ = LogLightMatrix::Zero();
   CommonError common_;
   std::optional<std::int64_t> last_ns_;
-  double usual_noise_square_ = 9e-4;  // Of a probe's reading; 3 % until something is seen.
-  double evidence_ = 0.0;             // For a change: logarithm.
+  double usual_noise_square_ = 9e-4;  // Relative variance of a reading; at first (3 %)².
+  double evidence_ = 0.0;             // Logarithm of the evidence for a change.
   bool changes_ = false;
 };
 

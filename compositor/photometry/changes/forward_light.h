@@ -9,7 +9,7 @@ namespace pleinair::compositor {
 
 /// Temporal light filter for live sessions: estimates sun and sky of each frame from this frame and
 /// those before. The model is that of FitLightChanges(), but for the error κ of the modelled sun
-/// over sky: it makes a reading less certain, and is not estimated.
+/// over sky. This error makes a reading less certain, and is not estimated.
 ///
 /// Cost: proportional to the frame's readings, about 1 ms for 450.
 class ForwardLight {
@@ -17,8 +17,8 @@ class ForwardLight {
   ForwardLight();
   ~ForwardLight();
 
-  /// Starts anew: all probes go. `next` is the light of the next frame with its uncertainty. At
-  /// first, and without `next`, the next frame is the reference.
+  /// Restarts the filter and removes all probes. `next` is the light of the next frame with its
+  /// uncertainty. At first, and without `next`, the next frame is the reference.
   void Start();
   void Start(const FrameLight& next);
 

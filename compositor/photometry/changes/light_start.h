@@ -21,11 +21,13 @@ struct LightStart {
 /// Probes in the sun or in shade that a frame needs to show how bright they are.
 inline constexpr std::size_t kMinStartProbes = 5;
 
-/// Factors on sun and sky, from those on the light of probes in the sun and of probes in shade, and
-/// from the sun's shares in both. Nothing if the shares are too much alike.
+/// Factors on sun and sky.
 struct SunAndSky {
   double sun, sky;
 };
+/// Splits the factors on the light of sunlit probes (`bright`) and of shaded probes (`dark`) into
+/// those on sun and sky. `in_sun` and `in_shade` are the sun's shares in the light of both. Returns
+/// nothing if the shares are too much alike.
 std::optional<SunAndSky> SplitLight(double bright, double dark, double in_sun, double in_shade);
 
 /// Estimates the sun and the sky of each frame from two brightnesses: that of the probes that the

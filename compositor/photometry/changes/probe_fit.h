@@ -92,7 +92,7 @@ class ProbeFit {
   ProbeLight light_;
   std::size_t plane_;
   std::vector<ProbeReading> readings_;
-  std::vector<ReadingTerm> terms_;  // Of each reading.
+  std::vector<ReadingTerm> terms_;  // One per reading.
   Unknowns unknowns_ = Unknowns::Zero();
   bool shaded_ = false;
   double noise_ = 0.3;                                 // Relative.

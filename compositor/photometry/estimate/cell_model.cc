@@ -7,9 +7,9 @@
 namespace pleinair::compositor {
 namespace {
 
-// One standard deviation of a logarithm of light: the pattern of a surface between the two sides of
-// an edge, and the modelled contrast (small things without a phantom, described colors that reflect
-// on both sides).
+// Standard deviations of a logarithm of light. kPatternError: a surface's pattern between the two
+// sides of an edge. kModelError: the modelled contrast. Its causes are small things without a
+// phantom, and described colors that reflect on both sides.
 constexpr double kPatternError = 0.05, kModelError = 0.10;
 // Red and blue against green, at an edge; and at a step, where leaves add their own color.
 constexpr double kColorError = 0.10, kStepColorError = 0.15;
@@ -25,14 +25,15 @@ constexpr double kStrayWidth = 0.7, kStrayColor = 0.3, kStrayShare = 0.02;
 constexpr std::array kSolid{0.55, 0.10, 0.25, 0.10}, kLeaves{0.30, 0.40, 0.05, 0.25};
 // Beneath leaves, the share of what they do not shade that has all of the sun.
 constexpr double kOpenBetweenLeaves = 0.6;
-// Share of the sky that what casts the shade hides from it: something solid, and a crown; and the
-// share of the reflected sunlight that goes with the sun beneath a crown. Guesses.
+// Shares of the sky that a shadow caster hides: kTakenBySolid by something solid, kTakenByCrown by
+// a crown. kNotReflected: share of the reflected sunlight that goes with the sun beneath a crown.
+// All three are guesses.
 constexpr double kTakenBySolid = 0.1, kTakenByCrown = 0.35, kNotReflected = 0.5;
-// Where the phantoms shade a place by themselves: maximum share of the sky that a crown takes, and
-// minimum share of the reflected sunlight that it leaves.
+// For places that the phantoms shade by themselves. kMaxTaken: max. share of the sky that a crown
+// takes. kMinReflected: min. share of the reflected sunlight that it leaves.
 constexpr double kMaxTaken = 0.6, kMinReflected = 0.2;
-// Of a sun elsewhere: the share of the phantoms' edges where its light differs on the two sides,
-// and its cosine on a surface.
+// For a sun elsewhere. kElsewhere: share of the phantoms' edges where its light differs on the two
+// sides. kOtherCosine: its cosine on a surface.
 constexpr double kElsewhere = 0.4, kOtherCosine = 0.5;
 
 constexpr LinearRgb kModelSky{1, 1, 1};

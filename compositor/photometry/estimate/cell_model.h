@@ -6,11 +6,11 @@
 
 namespace pleinair::compositor {
 
-/// Shares of the sun between which it varies beneath leaves: the first band from the first to the
-/// second of these, and so on; the last band reaches to the whole sun.
+/// Lower ends of the bands in which the share of the sun varies beneath leaves. Each band reaches
+/// to the next number, the last to the whole sun.
 inline constexpr std::array kBands{0.0, 0.1, 0.2, 0.35, 0.55};
 
-/// What unmodelled things may do to a cell that the phantoms leave in the sun.
+/// State of a cell that the phantoms leave sunlit: what unmodelled geometry does to its light.
 enum CellState : std::size_t {
   kOpen,      ///< The sun reaches it.
   kPartial,   ///< Any part of the sun reaches it, beside solid things.

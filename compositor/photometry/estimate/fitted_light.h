@@ -12,7 +12,7 @@
 
 namespace pleinair::compositor {
 
-/// What frames show and words say of one moment's light.
+/// Observations and scene description of one moment's light.
 struct FittedLightInput {
   const PhantomRays& phantoms;
   const SurfaceSamples& samples;
@@ -26,9 +26,9 @@ struct FittedLightInput {
   bool dappled = false;       ///< Leaves shade the marker in most frames.
 };
 
-/// Estimates heading, sun and sky by one fit (light_posterior.h) in place of a decision of its own
-/// for each kind of evidence. What counts as seen has a probability of 95 %; otherwise the words
-/// stand. `light_filter`: as in LightEstimator::Estimate().
+/// Estimates heading, sun and sky by one fit to all kinds of evidence (light_posterior.h). What
+/// counts as observed has a probability of 95 %. Other quantities come from the scene description.
+/// `light_filter`: as in LightEstimator::Estimate().
 LightEstimate EstimateByFit(const FittedLightInput& input, LightFilter* light_filter);
 
 }  // namespace pleinair::compositor

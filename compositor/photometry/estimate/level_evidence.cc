@@ -140,7 +140,7 @@ std::vector<LevelFunction> LevelEvidence::OfPlane(std::span<const LightCell* con
                                                   std::span<const UnmodelledShade> shades) {
   std::vector<LevelFunction> evidence(shades.size()), product(shades.size());
   for (LevelFunction& values : product) values.fill(1.0);
-  // Of the many states a mix has few: those with a prior above 0.
+  // A mix has few of the many states: those with a prior above 0.
   std::vector<std::vector<std::pair<std::size_t, double>>> weights(shades.size());
   for (std::size_t k = 0; k < cells.size(); ++k) {
     for (std::size_t m = 0; m < shades.size(); ++m) {

@@ -18,8 +18,8 @@ namespace {
 
 constexpr std::size_t kMaxCrossed = 120, kMaxSunny = 160, kMaxShaded = 48;
 constexpr std::uint32_t kPaths = 192;
-constexpr std::size_t kMinSamples = 12;  // Of a cell with one part.
-constexpr std::size_t kMinPerSide = 5;   // Of each part where there are two.
+constexpr std::size_t kMinSamples = 12;  // In a cell.
+constexpr std::size_t kMinPerSide = 5;   // On each side of a shadow boundary.
 // Logarithmic. Noise and mottling make smaller steps everywhere.
 constexpr double kMinStep = 0.25;
 

@@ -10,9 +10,9 @@
 
 namespace pleinair::compositor {
 
-/// Reads the evidence of sun and sky from surface samples, and traces the modelled light on it. The
-/// number of traced cells is bounded: 120 with the end of a phantom's shadow, those with the most
-/// samples; 160 sunlit and 48 shaded ones, spread evenly.
+/// Extracts the evidence of sun and sky from surface samples, and traces the modelled light on it.
+/// The number of traced cells is bounded. At most 120 contain the end of a phantom's shadow: those
+/// with the most samples. At most 160 sunlit and 48 shaded cells are traced, spread evenly.
 ///
 /// `day` has a sun, `clouds` is overcast. `marker_from_world` has the heading in use.
 std::vector<LightCell> FindLightCells(const PhantomRays& phantoms, const SurfaceSamples& samples,

@@ -25,7 +25,7 @@ constexpr double kFirstScale = -2.0, kScaleStep = 0.1;
 /// A kind of place: hardly any unmodelled shade, shade by solid things, or by leaves. In each kind,
 /// the shade of one surface is any of some mixes.
 struct Kind {
-  std::size_t first, count;  // Of kShades.
+  std::size_t first, count;  // Range in kShades.
   double prior;
   double on_marker;  // Expected share of shade.
 };
@@ -53,7 +53,7 @@ constexpr double kCommonError = 0.07;
 constexpr double kCasterError = 0.12;
 constexpr double kClearStep = 0.25;  // Contrast of edges that count.
 
-/// Of one kind of place and scale of the sky.
+/// Evidence for one kind of place at one sky radiance scale.
 struct KindEvidence {
   double log = 0.0;           // Evidence and prior.
   double level = 0.0;         // Expected error of the exposure scale.

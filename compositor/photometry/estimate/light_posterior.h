@@ -10,7 +10,7 @@
 
 namespace pleinair::compositor {
 
-/// What is given to the fit beside the cells.
+/// Inputs of the fit besides the cells.
 struct LightFitInput {
   MarkerLight marker;
   LinearRgb sun;  ///< On a surface that faces it: lux.
@@ -18,7 +18,7 @@ struct LightFitInput {
   LightPrior prior;
 };
 
-/// What the fit says of one cell that the phantoms leave in the sun.
+/// Estimate of unmodelled shadow on one cell that the phantoms leave sunlit.
 struct CellShade {
   double shaded = 0.0;     ///< Probability that unmodelled things shade it or a part of it.
   double level = 0.0;      ///< Brightness of its surface in the sun, as the samples have it.
@@ -38,8 +38,8 @@ struct CountedCells {
 /// Sun and sky after the frames.
 struct LightPosterior {
   double sun = 0.0, clouds = 0.0, elsewhere = 0.0;  ///< Probabilities, as in LightPrior.
-  /// The sky's radiance beside the sun over the model's, if the sun shines: the mean of its
-  /// logarithm, per channel, and one standard deviation of that.
+  /// Sky radiance scale: the sky's radiance beside the sun over the model's, if the sun shines.
+  /// Mean of its logarithm, per channel, and one standard deviation.
   LogRgb log_sky{};
   double log_sky_error = 0.0;
   std::vector<CellShade> shade;  ///< One per cell; zeros where phantoms shade it.

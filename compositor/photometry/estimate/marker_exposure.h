@@ -14,9 +14,10 @@ struct MarkerLight {
   bool dappled = false;  ///< Its light is uneven in most frames.
 };
 
-/// Binds the frames' exposure scale by the marker. If its brightest part has the light L where the
-/// samples' unit has P, the scale has the error e = log P − log L. L is the sky's light (and what
-/// is reflected) and the share v of the sun: 1, or 0, or between where unmodelled things shade it.
+/// Constrains the frames' exposure scale by the marker. If its brightest part has the light L where
+/// the samples' unit has P, the scale has the error e = log P − log L. L is the sum of skylight,
+/// reflected light, and the share v of the sun. v is 1 or 0, or lies between where unmodelled
+/// geometry shades the marker.
 class MarkerExposure {
  public:
   /// `sky`: all light but the sun's. `shaded`: the share of the scene in unmodelled shade.
@@ -24,8 +25,8 @@ class MarkerExposure {
 
   /// Logarithmic prior density of e; flat without a marker.
   LevelFunction LogPrior() const;
-  /// Logarithm of the unshaded light on the marker over that on its brightest part, at the error e;
-  /// 0 where all of the sun is the most probable.
+  /// Logarithm of the unshaded light on the marker over that on its brightest part, at the error e.
+  /// Returns 0 where all of the sun is the most probable.
   double LogShade(double e) const;
 
  private:

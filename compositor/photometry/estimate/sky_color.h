@@ -12,9 +12,10 @@ struct WeightedContrast {
   double weight = 0.0;
 };
 
-/// Color of the sky beside the sun: what is to be added to the logarithm of its scale in each
-/// channel, of which the luminance is 0. By the colors of the contrasts beside those predicted at
-/// `log_sky_scale` (one Gauss–Newton step), shrunk towards the model's color by both errors.
+/// Fits the color of the sky beside the sun. Returns what to add to the logarithm of its scale in
+/// each channel; the luminance of this is 0. The colors of the contrasts are compared with those
+/// predicted at `log_sky_scale` (one Gauss–Newton step). The result is shrunk towards the model's
+/// color by both errors.
 LogRgb FitSkyColor(const std::vector<WeightedContrast>& contrasts, double log_sky_scale);
 
 }  // namespace pleinair::compositor

@@ -11,12 +11,13 @@
 
 namespace pleinair::compositor {
 
-/// Maps how much of the sun unmodelled things such as trees let through, along the sun's rays.
+/// Maps the sun transmittance of unmodelled geometry such as trees, along the sun's rays.
 ///
-/// A sample that the phantoms leave in the sun lies between the levels of shade and sun on its
-/// plane, which the fit found on `cells`. That gives its share of the sun. In a cell that lies in
-/// the open sun, darker samples are joints and spots of the material: the share is 1. Otherwise the
-/// share counts by the probability of shade. `to_sun` is a unit vector in marker coordinates.
+/// The fit on `cells` found two levels of brightness on each plane: in shadow and in the sun. A
+/// sample that the phantoms leave sunlit lies between them. That gives its share of the sun. In a
+/// cell in direct sunlight, darker samples are joints and spots of the material: the share is 1.
+/// Otherwise the share counts by the probability of shadow. `to_sun` is a unit vector in marker
+/// coordinates.
 SunTransmittanceMap MapSunlight(const PhantomRays& phantoms, const SurfaceSamples& samples,
                                 const std::vector<LightCell>& cells,
                                 const LightPosterior& posterior, Vec3 to_sun);

@@ -120,8 +120,8 @@ TEST(LeafColor, MakesDaylightOfTheColorThatIsAskedFor) {
   }
 }
 
-// Suns through 1 to 20 air masses of clean and hazy air with ozone: their spectra as the atmosphere
-// computes them, against those made from their colors alone.
+// The light of the sun passes 1 to 20 air masses of clean and hazy air with ozone. Its spectra by
+// the atmosphere model are compared with those made from their colors alone.
 TEST(LeafColor, IsThatUnderTheAtmospheresSun) {
   std::mt19937 random(9);
   double worst = 0.0;

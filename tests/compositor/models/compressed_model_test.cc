@@ -48,8 +48,8 @@ std::string View(int buffer, const Stream& stream, int stride, const std::string
          std::to_string(stride) + R"(,"count":3,)" + mode + "}}}";
 }
 
-/// A triangle with quantized corners (0, 0, 0), (1, 0, 0) and (0, 1, 0), its normals in octahedral
-/// form; the views' own buffer has no data.
+/// A triangle with quantized corners (0, 0, 0), (1, 0, 0) and (0, 1, 0). Its normals are in
+/// octahedral form. The views' own buffer has no data.
 std::string MeshoptFile(const Stream& vertices = kVertices,
                         const std::string& vertex_mode = R"("mode":"ATTRIBUTES")") {
   return R"({"asset":{"version":"2.0"},"extensionsUsed":["EXT_meshopt_compression",)"

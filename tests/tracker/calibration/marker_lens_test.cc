@@ -35,8 +35,8 @@ CameraModel LensOf(int width, int height, double focal_px, Vec2 off_centre_px, d
 struct Motion {
   double tilt_deg = 45.0, tilt_range_deg = 15.0;
   double turn_deg = 150.0;  ///< Around the marker.
-  double roam = 0.28;       ///< Of the marker in the image, relative to its size.
-  double side_share = 0.2;  ///< Of the marker's edge, of the image's width.
+  double roam = 0.28;       ///< Amplitude of the marker's motion over the image's size.
+  double side_share = 0.2;  ///< Marker's edge over the image's width.
   double distance_range = 0.3;
 };
 
