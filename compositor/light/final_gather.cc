@@ -8,6 +8,7 @@
 
 #include "base/parallel_for.h"
 #include "compositor/light/buried_patches.h"
+#include "compositor/light/cosine_spread.h"
 #include "compositor/light/sampling.h"
 
 namespace pleinair::compositor {
@@ -28,7 +29,11 @@ class Gatherer {
   /// `sun_transmittance`: null without trees.
   Gatherer(const PatchScene& scene, const SkyTable* sky, const SkyPatches* patches,
            std::optional<Vec3> to_sun, const SunTransmittanceMap* sun_transmittance, int rays)
-      : scene_(scene), sky_(sky), patches_(patches), sunlight_(sun_transmittance), rays_(rays) {
+      : scene_(scene),
+        sky_(sky),
+        patches_(patches),
+        sunlight_(sun_transmittance),
+        spread_(static_cast<std::uint32_t>(rays)) {
     if (to_sun) sun_frame_.emplace(*to_sun);
     is_phantom_ = scene.ArePhantoms();
     for (const PatchScene::MeshSide& mesh_side : scene.mesh_sides) {
@@ -38,42 +43,77 @@ class Gatherer {
 
   FinalGather::Patch GatherPatch(std::uint32_t patch, FinalGather::Block* block) const {
     FinalGather::Patch light;
-    const bool phantom = is_phantom_[patch];
-    const bool land_alone = scene_.SampleCount(patch) == 1 && phantom && has_twin_[patch] != 0 &&
+    const bool land_alone = scene_.SampleCount(patch) == 1 && is_phantom_[patch] != 0 &&
+                            has_twin_[patch] != 0 &&
                             SeesLandAlone(scene_.AnyPatchSample(patch, 0), patch);
-    for (int i = 0; i < rays_; ++i) {
-      const auto ray = static_cast<std::uint32_t>(i);
-      // A patch with many surface samples gathers their mean.
-      const PatchScene::PatchSample& surface_sample =
-          scene_.AnyPatchSample(patch, Hash(Hash(patch, ray), kSampleSalt));
-      const Vec3 origin = surface_sample.origin;
-      const TangentFrame frame(Normalized(
-          {surface_sample.normal[0], surface_sample.normal[1], surface_sample.normal[2]}));
-      const Vec3 direction =
-          CosineDirection(frame, ShiftedHammersley(ray, static_cast<std::uint32_t>(rays_), patch));
-      const std::uint32_t seed = Hash(patch, ray);
-      // Evenly distributed over a patch's rays in any order (multiples of the golden ratio).
-      const double turn = UnitFromHash(Hash(patch, kTreesSalt)) + ray * (std::numbers::phi - 1.0);
-      const double trees = turn - std::floor(turn);
-      RayHit hit;
-      if (land_alone || !scene_.rays->Intersect(RayTargets::kEverything, origin, direction, &hit)) {
-        AddSky(direction, true, phantom, &light, block);
-        continue;
-      }
-      const bool phantom_hit = scene_.mesh_sides[scene_.FaceOf(hit).mesh_side].mesh.is_phantom;
-      AddHit(hit, origin, direction, seed, trees, true, phantom && phantom_hit, &light,
-             &block->hits);
-      if (!phantom || phantom_hit) continue;
-      if (scene_.rays->Intersect(RayTargets::kPhantoms, origin, direction, &hit)) {
-        AddHit(hit, origin, direction, seed, trees, false, true, &light, &block->hits);
-      } else {
-        AddSky(direction, false, true, &light, block);
-      }
+    const CosineSpread::Shift shift = CosineSpread::ShiftOf(patch);
+    for (std::uint32_t first = 0; first < spread_.count(); first += RayPacket::kSize) {
+      GatherPacket(patch, shift, first, land_alone, &light, block);
     }
     return light;
   }
 
  private:
+  /// Sets of rays of a packet: one bit per ray.
+  using Rays = unsigned;
+  static bool Has(Rays rays, unsigned i) { return (rays >> i & 1U) != 0; }
+
+  /// What rays of a packet see.
+  struct Seen {
+    Rays hit = 0;
+    std::array<RayHit, RayPacket::kSize> hits;
+    Rays with = 0, without = 0;  ///< Seen with the virtual objects present, with phantoms alone.
+    std::array<Hit, RayPacket::kSize> records{};
+    RayPacket to_sun;
+    Rays facing_sun = 0;  ///< And not behind trees.
+  };
+
+  void GatherPacket(std::uint32_t patch, const CosineSpread::Shift& shift, std::uint32_t first,
+                    bool land_alone, FinalGather::Patch* light, FinalGather::Block* block) const {
+    const bool phantom = is_phantom_[patch] != 0;
+    const unsigned count = std::min<unsigned>(RayPacket::kSize, spread_.count() - first);
+    const Rays all = (1U << count) - 1U;
+    RayPacket rays;
+    for (unsigned i = 0; i < count; ++i) {
+      // A patch with many surface samples gathers their mean.
+      const PatchScene::PatchSample& surface_sample =
+          scene_.AnyPatchSample(patch, Hash(Hash(patch, spread_.RayAt(first + i)), kSampleSalt));
+      const auto& [x, y, z] = surface_sample.normal;
+      rays.origins[i] = surface_sample.origin;
+      rays.directions[i] = spread_.Direction(TangentFrame(Normalized({x, y, z})), first + i, shift);
+    }
+    Seen seen, behind;  // Behind virtual objects that phantoms see.
+    if (!land_alone) {
+      seen.hit = scene_.rays->Intersect(RayTargets::kEverything, rays, all, &seen.hits);
+    }
+    seen.with = seen.hit;
+    Rays on_phantoms = 0;
+    for (unsigned i = 0; i < count; ++i) {
+      if (Has(seen.hit, i) &&
+          scene_.mesh_sides[scene_.FaceOf(seen.hits[i]).mesh_side].mesh.is_phantom) {
+        on_phantoms |= 1U << i;
+      }
+    }
+    const Rays on_objects = phantom ? seen.hit & ~on_phantoms : 0;
+    if (phantom) seen.without = on_phantoms;
+    behind.hit = scene_.rays->Intersect(RayTargets::kPhantoms, rays, on_objects, &behind.hits);
+    behind.without = behind.hit;
+    for (unsigned i = 0; i < count; ++i) {
+      if (!Has(seen.hit, i)) {
+        AddSky(rays.directions[i], true, phantom, light, block);
+      } else if (Has(on_objects & ~behind.hit, i)) {
+        AddSky(rays.directions[i], false, true, light, block);
+      }
+    }
+    for (Seen* of : {&seen, &behind}) {
+      Record(patch, first, rays, of, light);
+      AddSunlight(of);
+      for (unsigned i = 0; i < count; ++i) {
+        if (Has(of->hit, i)) block->hits.push_back(of->records[i]);
+      }
+    }
+  }
+
   bool IsBelowHorizon(Vec3 direction) const {
     return sky_ != nullptr ? sky_->SineElevation(direction) <= 0.0
                            : patches_->At(direction) == patches_->land();
@@ -116,42 +156,78 @@ class Gatherer {
     }
   }
 
-  /// The ray sees the sun where the sun transmittance exceeds `trees`.
-  void AddHit(const RayHit& hit, Vec3 origin, Vec3 direction, std::uint32_t seed, double trees,
-              bool with, bool without, FinalGather::Patch* light, std::vector<Hit>* hits) const {
-    const PatchScene::Face& face = scene_.FaceOf(hit);
-    const bool inside = hit.back && face.back_offset == 0;
-    for (const int k : {0, 1}) {
-      if (!(k == 0 ? with : without)) continue;
-      ++light->hit_rays[k];
-      if (inside) ++light->buried_rays[k];
+  /// Makes the records, without the sun. Hits on the inside of bodies are removed: they gather no
+  /// light.
+  void Record(std::uint32_t patch, std::uint32_t first, const RayPacket& rays, Seen* seen,
+              FinalGather::Patch* light) const {
+    for (unsigned i = 0; i < RayPacket::kSize; ++i) {
+      if (!Has(seen->hit, i)) continue;
+      const RayHit& hit = seen->hits[i];
+      const PatchScene::Face& face = scene_.FaceOf(hit);
+      const bool inside = hit.back && face.back_offset == 0;
+      for (const int k : {0, 1}) {
+        if (!Has(k == 0 ? seen->with : seen->without, i)) continue;
+        ++light->hit_rays[k];
+        if (inside) ++light->buried_rays[k];
+      }
+      if (inside) {
+        seen->hit &= ~(1U << i);
+        continue;
+      }
+      Hit record{};
+      record.face = static_cast<std::uint32_t>(&face - scene_.faces.data()) & ((1U << 26) - 1);
+      record.with = Has(seen->with, i);
+      record.without = Has(seen->without, i);
+      record.back = hit.back;
+      // Without the objects there are phantoms alone.
+      record.close = record.without != 0 && hit.distance_m < kLayerGapM;
+      record.u = Quantized(hit.u);
+      record.v = Quantized(hit.v);
+      seen->records[i] = record;
+      FaceSun(patch, spread_.RayAt(first + i),
+              rays.origins[i] + rays.directions[i] * hit.distance_m, face, i, seen);
     }
-    if (inside) return;  // It gathers no light.
-    Hit record{};
-    record.face = static_cast<std::uint32_t>(&face - scene_.faces.data()) & ((1U << 26) - 1);
-    record.with = with;
-    record.without = without;
-    record.back = hit.back;
-    // Without the objects there are phantoms alone.
-    record.close = without && hit.distance_m < kLayerGapM;
-    record.u = Quantized(hit.u);
-    record.v = Quantized(hit.v);
-    Vec3 normal = hit.back ? -face.normal : face.normal;
-    if (sun_frame_ && scene_.Transmits(face) && Dot(normal, sun_frame_->normal) < 0.0) {
+  }
+
+  /// Sets the ray from a hit's point to the sun, if the surface there faces it. The ray sees the
+  /// sun where the sun transmittance exceeds a number that is evenly distributed over a patch's
+  /// rays.
+  void FaceSun(std::uint32_t patch, std::uint32_t ray, Vec3 surface, const PatchScene::Face& face,
+               unsigned i, Seen* seen) const {
+    if (!sun_frame_) return;
+    Vec3 normal = seen->hits[i].back ? -face.normal : face.normal;
+    double facing = Dot(normal, sun_frame_->normal);
+    if (facing < 0.0 && scene_.Transmits(face)) {
       normal = -normal;
+      facing = -facing;
     }
-    if (sun_frame_ && Dot(normal, sun_frame_->normal) > 0.0) {
-      const Vec3 to_sun =
-          SunDiscDirection(*sun_frame_, {UnitFromHash(Hash(seed, 1)), UnitFromHash(Hash(seed, 2))});
-      const Vec3 point = origin + direction * hit.distance_m + normal * kRayOffset_m;
+    if (facing <= 0.0) return;
+    const Vec3 point = surface + normal * kRayOffset_m;
+    if (sunlight_ != nullptr) {
+      // In any order of the rays (multiples of the golden ratio).
+      const double turn = UnitFromHash(Hash(patch, kTreesSalt)) + ray * (std::numbers::phi - 1.0);
       // At a transmittance of one half, every second ray sees the full sun.
-      const bool past_trees = sunlight_ == nullptr || trees < sunlight_->At(point);
-      const bool lit = past_trees && !scene_.rays->Occluded(RayTargets::kEverything, point, to_sun);
-      record.sun_with = lit;
-      record.sun_without = lit || (past_trees && without &&
-                                   !scene_.rays->Occluded(RayTargets::kPhantoms, point, to_sun));
+      if (turn - std::floor(turn) >= sunlight_->At(point)) return;
     }
-    hits->push_back(record);
+    const std::uint32_t seed = Hash(patch, ray);
+    seen->to_sun.origins[i] = point;
+    seen->to_sun.directions[i] =
+        SunDiscDirection(*sun_frame_, {UnitFromHash(Hash(seed, 1)), UnitFromHash(Hash(seed, 2))});
+    seen->facing_sun |= 1U << i;
+  }
+
+  /// Traces the rays to the sun.
+  void AddSunlight(Seen* seen) const {
+    const Rays with = seen->facing_sun & seen->with;
+    const Rays lit_with =
+        with & ~scene_.rays->Occluded(RayTargets::kEverything, seen->to_sun, with);
+    const Rays without = seen->facing_sun & seen->without & ~lit_with;
+    const Rays lit_without =
+        lit_with | (without & ~scene_.rays->Occluded(RayTargets::kPhantoms, seen->to_sun, without));
+    for (unsigned i = 0; i < RayPacket::kSize; ++i) {
+      seen->records[i].sun_with = Has(lit_with, i);
+      seen->records[i].sun_without = Has(lit_without, i);
+    }
   }
 
   static std::uint16_t Quantized(float weight) {
@@ -163,7 +239,7 @@ class Gatherer {
   const SkyPatches* patches_;
   const SunTransmittanceMap* sunlight_;
   std::optional<TangentFrame> sun_frame_;
-  int rays_;
+  CosineSpread spread_;
   std::vector<std::uint8_t> is_phantom_, has_twin_;  ///< One entry per patch.
 };
 
@@ -230,6 +306,7 @@ FinalGather GatherWith(const PatchScene& scene, const Gatherer& gatherer, int ra
   ParallelFor(gathered.blocks.size(), threads, [&](std::size_t index) {
     if (stop != nullptr && *stop) return;
     FinalGather::Block& block = gathered.blocks[index];
+    block.hits.reserve(std::size_t{FinalGather::kBlockSize} * static_cast<std::size_t>(rays));
     const auto first = static_cast<std::uint32_t>(index) * FinalGather::kBlockSize;
     const std::uint32_t last = std::min(first + FinalGather::kBlockSize, scene.patch_count);
     for (std::uint32_t patch = first; patch < last; ++patch) {

@@ -49,6 +49,31 @@ RTCRay MakeRay(Vec3 origin, Vec3 direction) {
   return ray;
 }
 
+// As Embree takes them: -1 follows a ray.
+struct alignas(32) Followed {
+  explicit Followed(unsigned bits) {
+    for (unsigned i = 0; i < RayPacket::kSize; ++i) lanes[i] = (bits >> i & 1U) != 0 ? -1 : 0;
+  }
+  std::array<int, RayPacket::kSize> lanes;
+};
+
+void SetRays(const RayPacket& rays, RTCRay8* packet) {
+  for (std::size_t i = 0; i < RayPacket::kSize; ++i) {
+    packet->org_x[i] = static_cast<float>(rays.origins[i].x);
+    packet->org_y[i] = static_cast<float>(rays.origins[i].y);
+    packet->org_z[i] = static_cast<float>(rays.origins[i].z);
+    packet->dir_x[i] = static_cast<float>(rays.directions[i].x);
+    packet->dir_y[i] = static_cast<float>(rays.directions[i].y);
+    packet->dir_z[i] = static_cast<float>(rays.directions[i].z);
+    packet->tnear[i] = 0.0F;
+    packet->tfar[i] = std::numeric_limits<float>::infinity();
+    packet->time[i] = 0.0F;
+    packet->mask[i] = ~0U;
+    packet->id[i] = 0;
+    packet->flags[i] = 0;
+  }
+}
+
 class EmbreeScene : public RayScene {
  public:
   EmbreeScene(Device device, Scene everything, Scene phantoms)
@@ -88,6 +113,47 @@ class EmbreeScene : public RayScene {
                     query.hit.Ng_z * query.ray.dir_z >
                 0.0F;
     return true;
+  }
+
+  unsigned Intersect(RayTargets targets, const RayPacket& rays, unsigned followed,
+                     std::array<RayHit, RayPacket::kSize>* hits) const override {
+    if (followed == 0) return 0;
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRayHit8 query;
+    SetRays(rays, &query.ray);
+    for (unsigned& id : query.hit.geomID) id = RTC_INVALID_GEOMETRY_ID;
+    for (unsigned& id : query.hit.instID[0]) id = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect8(Followed(followed).lanes.data(), SceneOf(targets), &context, &query);
+    unsigned found = 0;
+    for (unsigned i = 0; i < RayPacket::kSize; ++i) {
+      if ((followed >> i & 1U) == 0 || query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
+      found |= 1U << i;
+      RayHit& hit = (*hits)[i];
+      hit.mesh = query.hit.geomID[i];
+      hit.triangle = query.hit.primID[i];
+      hit.u = query.hit.u[i];
+      hit.v = query.hit.v[i];
+      hit.distance_m = query.ray.tfar[i];
+      hit.back = query.hit.Ng_x[i] * query.ray.dir_x[i] + query.hit.Ng_y[i] * query.ray.dir_y[i] +
+                     query.hit.Ng_z[i] * query.ray.dir_z[i] >
+                 0.0F;
+    }
+    return found;
+  }
+
+  unsigned Occluded(RayTargets targets, const RayPacket& rays, unsigned followed) const override {
+    if (followed == 0) return 0;
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRay8 query;
+    SetRays(rays, &query);
+    rtcOccluded8(Followed(followed).lanes.data(), SceneOf(targets), &context, &query);
+    unsigned hidden = 0;
+    for (unsigned i = 0; i < RayPacket::kSize; ++i) {
+      if ((followed >> i & 1U) != 0 && query.tfar[i] < 0.0F) hidden |= 1U << i;
+    }
+    return hidden;
   }
 
   bool Occluded(RayTargets targets, Vec3 origin, Vec3 direction) const override {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -31,6 +32,14 @@ struct RayHit {
 /// Which surfaces a ray may hit.
 enum class RayTargets { kEverything, kPhantoms };
 
+/// Up to eight rays that are followed at once. This is fastest where they are close to each other.
+/// One bit per ray says which of them are followed.
+struct RayPacket {
+  static constexpr std::size_t kSize = 8;
+  static constexpr unsigned kAll = (1U << kSize) - 1U;
+  std::array<Vec3, kSize> origins, directions;  ///< Directions are unit vectors.
+};
+
 /// Ray queries against the scene's triangles (Embree 3.13), thread-safe after creation. A ray finds
 /// the same hit for any number of threads.
 class RayScene {
@@ -48,6 +57,14 @@ class RayScene {
   /// Finds the nearest hit from `origin` along the unit vector `direction`. Returns false if there
   /// is none.
   virtual bool Intersect(RayTargets targets, Vec3 origin, Vec3 direction, RayHit* hit) const = 0;
+
+  /// Finds the nearest hits of the rays in `followed`. Returns the rays that have one; the others'
+  /// entries of `hits` stay.
+  virtual unsigned Intersect(RayTargets targets, const RayPacket& rays, unsigned followed,
+                             std::array<RayHit, RayPacket::kSize>* hits) const = 0;
+
+  /// Returns those rays of `followed` along which any surface lies.
+  virtual unsigned Occluded(RayTargets targets, const RayPacket& rays, unsigned followed) const = 0;
 
   /// Returns whether any surface lies along the ray.
   virtual bool Occluded(RayTargets targets, Vec3 origin, Vec3 direction) const = 0;

@@ -27,16 +27,26 @@ inline std::uint32_t Hash(std::uint32_t a, std::uint32_t b) {
 /// Maps a hash to [0, 1).
 inline double UnitFromHash(std::uint32_t hash) { return hash * 0x1p-32; }
 
-/// Point `i` of `count` of Hammersley's set (base 2), shifted around the unit square by an amount
-/// that depends on `seed` (Cranley & Patterson 1976). Equal seeds give equal points.
-inline SamplePoint ShiftedHammersley(std::uint32_t i, std::uint32_t count, std::uint32_t seed) {
+/// Point `i` of `count` of Hammersley's set (base 2).
+inline SamplePoint Hammersley(std::uint32_t i, std::uint32_t count) {
   std::uint32_t reversed = (i << 16) | (i >> 16);
   reversed = ((reversed & 0x00FF00FFU) << 8) | ((reversed & 0xFF00FF00U) >> 8);
   reversed = ((reversed & 0x0F0F0F0FU) << 4) | ((reversed & 0xF0F0F0F0U) >> 4);
   reversed = ((reversed & 0x33333333U) << 2) | ((reversed & 0xCCCCCCCCU) >> 2);
   reversed = ((reversed & 0x55555555U) << 1) | ((reversed & 0xAAAAAAAAU) >> 1);
-  SamplePoint point{(i + 0.5) / count + UnitFromHash(Hash(seed, 0x51U)),
-                    reversed * 0x1p-32 + UnitFromHash(Hash(seed, 0xA7U))};
+  return {(i + 0.5) / count, reversed * 0x1p-32};
+}
+
+/// The shift of ShiftedHammersley() by a seed.
+inline SamplePoint HammersleyShift(std::uint32_t seed) {
+  return {UnitFromHash(Hash(seed, 0x51U)), UnitFromHash(Hash(seed, 0xA7U))};
+}
+
+/// Point `i` of `count` of Hammersley's set, shifted around the unit square by an amount that
+/// depends on `seed` (Cranley & Patterson 1976). Equal seeds give equal points.
+inline SamplePoint ShiftedHammersley(std::uint32_t i, std::uint32_t count, std::uint32_t seed) {
+  const SamplePoint at = Hammersley(i, count), shift = HammersleyShift(seed);
+  SamplePoint point{at.u + shift.u, at.v + shift.v};
   if (point.u >= 1.0) point.u -= 1.0;
   if (point.v >= 1.0) point.v -= 1.0;
   return point;
