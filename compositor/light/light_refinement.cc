@@ -338,15 +338,20 @@ std::map<int, double> ObjectDiagonals(const std::vector<SurfaceMesh>& surfaces) 
 
 }  // namespace
 
-void RefineForLight(const RayScene& rays, const std::vector<SurfaceOfRays>& surfaces_of_rays,
-                    double max_edge_m, int threads, std::vector<SurfaceMesh>* surfaces) {
+std::vector<LightPlaces> RefineForLight(const RayScene& rays,
+                                        const std::vector<SurfaceOfRays>& surfaces_of_rays,
+                                        double max_edge_m, int threads,
+                                        std::vector<SurfaceMesh>* surfaces) {
   const std::map<int, double> diagonals = ObjectDiagonals(*surfaces);
   Places places;
+  std::vector<LightPlaces> light_places(surfaces->size());
   std::vector<Refined> refined;
   std::size_t before = 0;
-  for (SurfaceMesh& surface : *surfaces) {
+  for (std::size_t i = 0; i < surfaces->size(); ++i) {
+    SurfaceMesh& surface = (*surfaces)[i];
     if (surface.is_phantom || surface.role != MeshRole::kAll) continue;
     const double fine_m = std::min(max_edge_m, kFineShare * diagonals.at(surface.placed_model));
+    light_places[i] = {fine_m, surface.positions.size()};
     if (!HasLongEdge(surface, fine_m)) continue;
     refined.emplace_back(&surface, fine_m, &places);
     before += surface.positions.size();
@@ -355,12 +360,13 @@ void RefineForLight(const RayScene& rays, const std::vector<SurfaceOfRays>& surf
   for (int pass = 0; pass < kMaxPasses; ++pass) {
     std::unordered_set<std::uint64_t> split;
     for (Refined& surface : refined) surface.FindSplits(prober, threads, &split);
-    if (split.empty()) return;
+    if (split.empty()) break;
     std::size_t now = 0;
     for (const Refined& surface : refined) now += surface.size();
-    if (now + split.size() > before + kMaxNewVertices) return;
+    if (now + split.size() > before + kMaxNewVertices) break;
     for (Refined& surface : refined) surface.Split(split);
   }
+  return light_places;
 }
 
 }  // namespace pleinair::compositor

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -14,6 +15,12 @@ struct SurfaceOfRays {
   bool closed = false;
 };
 
+/// Where a virtual object's light needs vertices.
+struct LightPlaces {
+  double fine_m = 0.0;  ///< Length of fine edges: 1/64 of the object, at most `max_edge_m`; or 0.
+  std::size_t in_file = 0;  ///< Vertices before those that were added for the light.
+};
+
 /// Splits edges of virtual objects where the light changes along them, so that light stored at
 /// vertices does not depend on the mesh. The shape does not change.
 ///
@@ -24,8 +31,11 @@ struct SurfaceOfRays {
 /// split together, whatever their meshes and normals.
 ///
 /// `surfaces`: those of the ray scene, not yet refined. New vertices follow the old ones.
-/// `max_edge_m`: longest edge that is fine for an object of any size.
-void RefineForLight(const RayScene& rays, const std::vector<SurfaceOfRays>& surfaces_of_rays,
-                    double max_edge_m, int threads, std::vector<SurfaceMesh>* surfaces);
+/// `max_edge_m`: longest edge that is fine for an object of any size. Returns one entry per
+/// surface; those of phantoms are zero.
+std::vector<LightPlaces> RefineForLight(const RayScene& rays,
+                                        const std::vector<SurfaceOfRays>& surfaces_of_rays,
+                                        double max_edge_m, int threads,
+                                        std::vector<SurfaceMesh>* surfaces);
 
 }  // namespace pleinair::compositor

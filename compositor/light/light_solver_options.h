@@ -13,6 +13,8 @@ struct LightSolverOptions {
   /// Max. number of patches that gather light. If a scene has more vertices, the vertices of fine
   /// surfaces share patches. The light is interpolated between them (surface_patches.h).
   std::size_t max_patches = kDefaultPatches;
+  /// Objects with at least twice as many vertices as their light needs share patches, too.
+  bool share_dense = true;
   int threads = 0;  ///< 0: one per processor.
 
   static constexpr std::size_t kDefaultPatches = 100'000;

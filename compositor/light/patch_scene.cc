@@ -236,9 +236,15 @@ Result<PatchScene> PatchScene::Create(const std::vector<PlacedModel>& models,
     }
   }
   PLEINAIR_ASSIGN_OR_RETURN(scene.rays, RayScene::Create(ray_meshes, LargestModel(models)));
-  RefineForLight(*scene.rays, surfaces_of_rays, options.near_edge_m, options.threads, &surfaces);
-  std::vector<SurfacePatches> divided =
-      DividedIntoPatches(surfaces, tessellation, options.max_patches, options.threads);
+  const std::vector<LightPlaces> light_places = RefineForLight(
+      *scene.rays, surfaces_of_rays, options.near_edge_m, options.threads, &surfaces);
+  std::vector<SurfacePatches> divided(surfaces.size());
+  if (options.share_dense) {
+    divided = DividedWhereDense(surfaces, light_places, options.threads);
+  }
+  if (PatchCount(surfaces, divided) > options.max_patches) {
+    divided = DividedIntoPatches(surfaces, tessellation, options.max_patches, options.threads);
+  }
   std::size_t next_ray_mesh = 0;
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
     SurfaceMesh& surface = surfaces[i];

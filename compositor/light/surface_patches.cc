@@ -17,6 +17,8 @@ namespace {
 
 // A surface is divided only if patches at least halve its number of samples.
 constexpr double kWorthwhile = 0.5;
+// An object with a larger share of vertices that were added for the light is not dense.
+constexpr double kDenseAdded = 0.2;
 // Patches widen by this factor per step until few enough remain. After `kMaxWidenings` steps, each
 // surface is one patch.
 constexpr double kWidening = 1.15;
@@ -68,9 +70,15 @@ std::uint32_t NormalGroup(const Float3& n) {
 /// Divides one surface into patches.
 class Divider {
  public:
+  /// Patches of one width everywhere. Vertices from `single` on become patches of their own.
+  Divider(const SurfaceMesh& mesh, double width_m, std::size_t single)
+      : mesh_(mesh), near_edge_m_(width_m), single_(single), levels_(mesh.positions.size(), 0) {
+    FindTwins();
+  }
+  /// Patches that grow with the distance from virtual objects.
   Divider(const SurfaceMesh& mesh, const TessellationOptions& spacing,
           const ObjectDistance& distance)
-      : mesh_(mesh), near_edge_m_(spacing.near_edge_m) {
+      : mesh_(mesh), near_edge_m_(spacing.near_edge_m), single_(mesh.positions.size()) {
     for (const Float3& position : mesh.positions) {
       const double growth = 1.0 + spacing.growth_per_m * distance(position) / near_edge_m_;
       levels_.push_back(static_cast<std::uint8_t>(std::min(30.0, std::log2(growth))));
@@ -102,7 +110,7 @@ class Divider {
     for (std::uint32_t v = 0; v < size; ++v) keys[v] = Key(v, scale);
     Sets sets(size);
     const auto join = [&](std::uint32_t a, std::uint32_t b) {
-      if (keys[a] == keys[b]) sets.Join(a, b);
+      if (keys[a] == keys[b] && std::max(a, b) < single_) sets.Join(a, b);
     };
     if (hang_together) {
       std::vector<std::uint64_t> cells = keys;
@@ -187,6 +195,7 @@ class Divider {
 
   const SurfaceMesh& mesh_;
   double near_edge_m_;
+  std::size_t single_;
   std::vector<std::uint8_t> levels_;  // Doublings of a patch's width with distance.
   std::vector<std::array<std::uint32_t, 2>> twins_;
   std::vector<std::uint32_t> patch_of_;
@@ -237,6 +246,34 @@ SurfacePatches Divider::Patches(int threads) const {
 }
 
 }  // namespace
+
+std::vector<SurfacePatches> DividedWhereDense(const std::vector<SurfaceMesh>& surfaces,
+                                              const std::vector<LightPlaces>& light_places,
+                                              int threads) {
+  std::vector<SurfacePatches> divided(surfaces.size());
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    const auto& [fine_m, in_file] = light_places[i];
+    const std::size_t added = surfaces[i].positions.size() - in_file;
+    if (fine_m == 0.0 || static_cast<double>(added) > kDenseAdded * static_cast<double>(in_file)) {
+      continue;
+    }
+    Divider divider(surfaces[i], fine_m, in_file);
+    divider.Divide(1.0, true);
+    divided[i] = divider.Patches(threads);
+  }
+  return divided;
+}
+
+std::size_t PatchCount(const std::vector<SurfaceMesh>& surfaces,
+                       const std::vector<SurfacePatches>& divided) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    const std::size_t of_side =
+        divided[i].count > 0 ? divided[i].count : surfaces[i].positions.size();
+    count += of_side * (surfaces[i].closed ? 1 : 2);
+  }
+  return count;
+}
 
 std::vector<SurfacePatches> DividedIntoPatches(const std::vector<SurfaceMesh>& surfaces,
                                                const TessellationOptions& spacing,

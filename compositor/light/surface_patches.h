@@ -1,10 +1,12 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "compositor/light/light_refinement.h"
 #include "compositor/light/tessellation.h"
 #include "compositor/models/surface_orientation.h"
 
@@ -37,6 +39,18 @@ struct SurfacePatches {
   /// Computes the light of all vertices from that of the patches; never negative.
   std::vector<std::array<float, 3>> Interpolate(std::span<const std::array<float, 3>> light) const;
 };
+
+/// Divides those virtual objects whose files have at least twice as many vertices as their light
+/// needs: into patches as wide as a fine edge. Vertices that were added for the light stay patches
+/// of their own; an object with many of them is not divided. The result has one entry per surface,
+/// empty as in DividedIntoPatches().
+std::vector<SurfacePatches> DividedWhereDense(const std::vector<SurfaceMesh>& surfaces,
+                                              const std::vector<LightPlaces>& light_places,
+                                              int threads);
+
+/// Number of patches on all sides of the surfaces.
+std::size_t PatchCount(const std::vector<SurfaceMesh>& surfaces,
+                       const std::vector<SurfacePatches>& divided);
 
 /// Divides surfaces into at most `max_patches` in total, but at least one each. An open surface
 /// counts twice, for its two sides. Patches are equally wide, except that they grow with the

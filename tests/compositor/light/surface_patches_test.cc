@@ -6,7 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include "tests/compositor/light/light_scenes.h"
 
@@ -163,31 +166,57 @@ TEST(SurfacePatches, LightADenseBodyAsItsVerticesWould) {
   options.rays_per_vertex = 192;
   options.bounces = 1;
   options.near_edge_m = 0.08;
-  const auto solve = [&](std::size_t most) {
+  const auto solve = [&](std::size_t most, bool share_dense) {
     options.max_patches = most;
+    options.share_dense = share_dense;
     auto solver = LightSolver::Create(scene, options);
     EXPECT_TRUE(solver);
     return (*solver)->Solve(day, Mat3{});
   };
-  const auto full = solve(1'000'000), coarse = solve(8'000);
-  ASSERT_EQ(full.size(), coarse.size());
-  for (std::size_t m = 0; m < full.size(); ++m) {
-    ASSERT_EQ(full[m].positions, coarse[m].positions);
-    double squares = 0.0, sum = 0.0;
-    for (std::size_t v = 0; v < full[m].positions.size(); ++v) {
-      for (int c = 0; c < 3; ++c) {
-        squares += std::pow(full[m].ambient_with[v][c] - coarse[m].ambient_with[v][c], 2);
-        sum += full[m].ambient_with[v][c];
+  const auto full = solve(1'000'000, false);
+  const std::map<std::string, std::vector<LitMesh>> divided{{"8,000 patches", solve(8'000, false)},
+                                                            {"as dense", solve(1'000'000, true)}};
+  for (const auto& [name, light] : divided) {
+    ASSERT_EQ(full.size(), light.size());
+    for (std::size_t m = 0; m < full.size(); ++m) {
+      ASSERT_EQ(full[m].positions, light[m].positions);
+      double squares = 0.0, sum = 0.0;
+      for (std::size_t v = 0; v < full[m].positions.size(); ++v) {
+        for (int c = 0; c < 3; ++c) {
+          squares += std::pow(full[m].ambient_with[v][c] - light[m].ambient_with[v][c], 2);
+          sum += full[m].ambient_with[v][c];
+        }
       }
+      if (sum == 0.0) continue;  // The ground's lower side.
+      const auto count = static_cast<double>(3 * full[m].positions.size());
+      const double relative = std::sqrt(squares / count) / (sum / count);
+      std::printf("%s, %s of %zu vertices: %.2f %% RMS\n", name.c_str(),
+                  full[m].is_phantom ? "ground" : "ring", full[m].positions.size(), 100 * relative);
+      // Most of the ring's error is the noise of the reference's 192 rays.
+      EXPECT_LT(relative, full[m].is_phantom ? 0.002 : 0.04) << name;
     }
-    if (sum == 0.0) continue;  // The ground's lower side.
-    const auto count = static_cast<double>(3 * full[m].positions.size());
-    const double relative = std::sqrt(squares / count) / (sum / count);
-    std::printf("%s of %zu vertices: %.2f %% RMS\n", full[m].is_phantom ? "ground" : "ring",
-                full[m].positions.size(), 100 * relative);
-    // Most of the ring's error is the noise of the reference's 192 rays.
-    EXPECT_LT(relative, full[m].is_phantom ? 0.002 : 0.04);
   }
+}
+
+TEST(SurfacePatches, AreSharedByTheVerticesOfTheFileWhereTheyAreDense) {
+  const auto surfaces = SurfacesOf(Object(ModelOf(BulgyRing(150, 80), {0.5F, 0.5F, 0.5F})));
+  const std::size_t vertices = surfaces[0].positions.size(), in_file = vertices - 100;
+  const auto divide = [&](LightPlaces places) {
+    return DividedWhereDense(surfaces, {places}, 1)[0];
+  };
+  const SurfacePatches patches = divide({0.03, in_file});
+  ASSERT_GT(patches.count, 100U);
+  EXPECT_LE(2 * patches.count, vertices);
+  EXPECT_EQ(PatchCount(surfaces, {patches}), patches.count);
+  for (std::size_t v = in_file; v < vertices; ++v) {
+    const std::uint32_t patch = patches.patch_of[v];
+    EXPECT_EQ(std::count(patches.patch_of.begin(), patches.patch_of.end(), patch), 1)
+        << "the light needed this vertex";
+  }
+  EXPECT_EQ(divide({0.005, vertices}).count, 0U) << "not denser than the light needs";
+  EXPECT_EQ(divide({0.03, vertices / 2}).count, 0U) << "the light needed most of them";
+  EXPECT_EQ(divide({}).count, 0U) << "a phantom";
+  EXPECT_EQ(PatchCount(surfaces, {SurfacePatches{}}), vertices);
 }
 
 }  // namespace
