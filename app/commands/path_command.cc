@@ -22,9 +22,10 @@ constexpr const char* kPathExamples =
     "    --extrinsics mav0/cam0/sensor.yaml\n"
     "  pleinair path convert sparse/0 text/ --frame-rate 30\n"
     "  pleinair path convert sparse/0 walk.glb --frame-rate 30 --axes y-down --scale 0.42\n"
+    "  pleinair path convert scan/ walk.tum   (Stray Scanner: odometry.csv; Record3D: metadata)\n"
     "Read: TUM (.tum, .txt), EuRoC (.csv), COLMAP (a folder with cameras and images, .txt or "
-    ".bin).\n"
-    "Written: the same, COLMAP as text or, with --to colmap-binary, as .bin; glTF (.glb, .gltf) "
+    ".bin), Stray Scanner, Record3D.\n"
+    "Written: TUM, EuRoC, COLMAP as text or, with --to colmap-binary, as .bin; glTF (.glb, .gltf) "
     "and MCAP (.mcap). docs/guide/trajectories.md explains each format.";
 
 struct PathArguments {
@@ -101,7 +102,7 @@ void AddPathCommand(CLI::App& app, CommandResult& result) {
   command->add_option("IN", arguments->input, "Trajectory to read")->required();
   command->add_option("OUT", arguments->output, "File or folder to write")->required();
   command->add_option("--from", arguments->from, "Format of IN where its name does not show it")
-      ->check(CLI::IsMember({"tum", "euroc", "colmap"}));
+      ->check(CLI::IsMember({"tum", "euroc", "colmap", "stray", "record3d"}));
   command->add_option("--to", arguments->to, "Format of OUT where its name does not show it")
       ->check(CLI::IsMember({"tum", "euroc", "colmap", "colmap-binary", "gltf", "mcap"}));
   command->add_option("--calibration", arguments->calibration,

@@ -20,7 +20,8 @@ struct Reference;
 struct TrajectoryPose {
   std::int64_t timestamp_ns = 0;
   Transform<Reference, Camera> reference_from_camera;
-  std::string picture;  ///< File name of the frame; empty if unknown.
+  std::string picture;                  ///< File name of the frame; empty if unknown.
+  std::optional<std::int64_t> frame{};  ///< Number of the frame in its film, if known.
 };
 
 /// A reconstructed point.

@@ -87,6 +87,7 @@ Result<CameraTrajectory> TrajectoryFromColmap(ColmapModel model, double frame_ra
     pose.timestamp_ns = std::llround(index / frame_rate_hz * 1e9);
     pose.reference_from_camera = picture.camera_from_reference.Inverse();
     pose.picture = picture.name;
+    if (numbered) pose.frame = pictures[i].number;
     PLEINAIR_RETURN_IF_ERROR(AddPose(picture.where, std::move(pose), &path));
   }
   return path;

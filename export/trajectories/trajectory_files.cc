@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <fstream>
+#include <ios>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -14,6 +16,8 @@
 #include "export/trajectories/euroc_trajectory.h"
 #include "export/trajectories/gltf_trajectory.h"
 #include "export/trajectories/mcap_trajectory.h"
+#include "export/trajectories/record3d_trajectory.h"
+#include "export/trajectories/stray_trajectory.h"
 #include "export/trajectories/tum_trajectory.h"
 #include "files/text_file.h"
 
@@ -23,6 +27,10 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxBytes = std::size_t{1} << 30;
+/// An hour at 60 Hz has some 100 MB. The parsed JSON takes several times as much memory.
+constexpr std::size_t kMaxMetadataBytes = std::size_t{1} << 28;
+constexpr const char* kStrayFile = "odometry.csv";
+constexpr std::array<const char*, 2> kRecord3dFiles{"metadata", "metadata.json"};
 
 std::string LowerExtension(const fs::path& file) {
   std::string extension = file.extension().string();
@@ -31,16 +39,55 @@ std::string LowerExtension(const fs::path& file) {
   return extension;
 }
 
+/// True for a file that begins with the header of Stray Scanner's odometry.csv.
+bool HasStrayHeader(const fs::path& file) {
+  constexpr std::streamsize kHeaderBytes = 200;
+  std::string start(kHeaderBytes, '\0');
+  std::ifstream in(file, std::ios::binary);
+  in.read(start.data(), kHeaderBytes);
+  start.resize(static_cast<std::size_t>(in.gcount()));
+  return IsStrayOdometry(start);
+}
+
+/// The metadata in a folder of Record3D; nothing for other folders and files.
+std::optional<fs::path> Record3dFileIn(const fs::path& folder) {
+  std::error_code error;
+  for (const char* name : kRecord3dFiles) {
+    if (fs::is_regular_file(folder / name, error)) return folder / name;
+  }
+  return std::nullopt;
+}
+
+/// Reads odometry.csv, and the camera_matrix.csv beside it if there is one.
+Result<CameraTrajectory> ReadStray(const fs::path& named) {
+  std::error_code error;
+  const fs::path file = fs::is_directory(named, error) ? named / kStrayFile : named;
+  PLEINAIR_ASSIGN_OR_RETURN(const std::string text, files::ReadWholeFile(file, kMaxBytes));
+  PLEINAIR_ASSIGN_OR_RETURN(CameraTrajectory path, ParseStrayOdometry(text, file.string()));
+  const fs::path matrix = file.parent_path() / "camera_matrix.csv";
+  if (!fs::exists(matrix, error)) return path;
+  PLEINAIR_ASSIGN_OR_RETURN(const std::string lens,
+                            files::ReadWholeFile(matrix, files::kMaxCalibrationBytes));
+  PLEINAIR_ASSIGN_OR_RETURN(path.camera, ParseStrayCamera(lens, matrix.string()));
+  return path;
+}
+
 }  // namespace
 
+bool IsArkit(TrajectoryFormat format) {
+  return format == TrajectoryFormat::kStray || format == TrajectoryFormat::kRecord3d;
+}
+
 std::optional<TrajectoryFormat> TrajectoryFormatNamed(const std::string& name) {
-  constexpr std::array<std::pair<std::string_view, TrajectoryFormat>, 6> kNames{{
+  constexpr std::array<std::pair<std::string_view, TrajectoryFormat>, 8> kNames{{
       {"tum", TrajectoryFormat::kTum},
       {"euroc", TrajectoryFormat::kEuroc},
       {"colmap", TrajectoryFormat::kColmap},
       {"colmap-binary", TrajectoryFormat::kColmapBinary},
       {"gltf", TrajectoryFormat::kGltf},
       {"mcap", TrajectoryFormat::kMcap},
+      {"stray", TrajectoryFormat::kStray},
+      {"record3d", TrajectoryFormat::kRecord3d},
   }};
   for (const auto& [known, format] : kNames) {
     if (name == known) return format;
@@ -51,14 +98,20 @@ std::optional<TrajectoryFormat> TrajectoryFormatNamed(const std::string& name) {
 Result<TrajectoryFormat> TrajectoryFormatOf(const fs::path& file) {
   std::error_code error;
   const std::string extension = LowerExtension(file);
+  if (fs::exists(file / kStrayFile, error)) return TrajectoryFormat::kStray;
+  if (Record3dFileIn(file) || extension == ".json") return TrajectoryFormat::kRecord3d;
+  if (fs::is_regular_file(file, error) && file.filename() == kRecord3dFiles[0]) {
+    return TrajectoryFormat::kRecord3d;
+  }
   if (fs::is_directory(file, error) || extension.empty()) return TrajectoryFormat::kColmap;
   if (extension == ".tum" || extension == ".txt") return TrajectoryFormat::kTum;
-  if (extension == ".csv") return TrajectoryFormat::kEuroc;
+  if (extension == ".csv")
+    return HasStrayHeader(file) ? TrajectoryFormat::kStray : TrajectoryFormat::kEuroc;
   if (extension == ".glb" || extension == ".gltf") return TrajectoryFormat::kGltf;
   if (extension == ".mcap") return TrajectoryFormat::kMcap;
   return InputError(
       file.string(), "has a name without a known trajectory format",
-      "name it .tum, .csv, .glb, .gltf or .mcap or a folder, or give --from and --to");
+      "name it .tum, .csv, .json, .glb, .gltf or .mcap or a folder, or state its format");
 }
 
 Result<CameraTrajectory> ReadTrajectory(const fs::path& file, TrajectoryFormat format,
@@ -67,7 +120,7 @@ Result<CameraTrajectory> ReadTrajectory(const fs::path& file, TrajectoryFormat f
     const char* form = format == TrajectoryFormat::kGltf ? "a glTF" : "an MCAP";
     return InputError(file.string(),
                       fmt::format("is {} file, a format that can be written but not read", form),
-                      "name a TUM, EuRoC or COLMAP trajectory");
+                      "name a TUM, EuRoC, COLMAP, Stray Scanner or Record3D trajectory");
   }
   if (format == TrajectoryFormat::kColmap || format == TrajectoryFormat::kColmapBinary) {
     if (options.frame_rate_hz == 0.0) {
@@ -76,6 +129,13 @@ Result<CameraTrajectory> ReadTrajectory(const fs::path& file, TrajectoryFormat f
     }
     PLEINAIR_ASSIGN_OR_RETURN(ColmapModel model, ReadColmapFolder(file));
     return TrajectoryFromColmap(std::move(model), options.frame_rate_hz);
+  }
+  if (format == TrajectoryFormat::kStray) return ReadStray(file);
+  if (format == TrajectoryFormat::kRecord3d) {
+    const fs::path metadata = Record3dFileIn(file).value_or(file);
+    PLEINAIR_ASSIGN_OR_RETURN(const std::string json,
+                              files::ReadWholeFile(metadata, kMaxMetadataBytes));
+    return ParseRecord3dMetadata(json, metadata.string());
   }
   PLEINAIR_ASSIGN_OR_RETURN(const std::string text, files::ReadWholeFile(file, kMaxBytes));
   if (format == TrajectoryFormat::kTum) return ParseTum(text, file.string());
@@ -103,6 +163,10 @@ Result<void> WriteTrajectory(const CameraTrajectory& path, const fs::path& file,
           GltfFromTrajectory(path, {options.up, options.marker_size_m, binary}));
       return WriteFileAtomically(file, bytes);
     }
+    case TrajectoryFormat::kStray:
+    case TrajectoryFormat::kRecord3d:
+      return InputError(file.string(), "is to be in a format that can be read but not written",
+                        "write TUM, EuRoC, COLMAP, glTF or MCAP");
     case TrajectoryFormat::kMcap:
       break;
   }

@@ -12,12 +12,24 @@
 namespace pleinair::exports {
 
 /// File formats of a camera trajectory.
-enum class TrajectoryFormat { kTum, kEuroc, kColmap, kColmapBinary, kGltf, kMcap };
+enum class TrajectoryFormat {
+  kTum,
+  kEuroc,
+  kColmap,
+  kColmapBinary,
+  kGltf,
+  kMcap,
+  kStray,
+  kRecord3d
+};
 
-/// By name: "tum", "euroc", "colmap", "colmap-binary", "gltf", "mcap"; nothing for others.
+/// By name: "tum", "euroc", "colmap", "colmap-binary", "gltf", "mcap", "stray", "record3d"; nothing
+/// for others.
 std::optional<TrajectoryFormat> TrajectoryFormatNamed(const std::string& name);
 
-/// By file name: .tum and .txt TUM, .csv EuRoC, .glb and .gltf glTF, .mcap MCAP. A folder or a name
+/// By file name: .tum and .txt TUM, .csv EuRoC, .glb and .gltf glTF, .mcap MCAP. A .csv with the
+/// header of Stray Scanner is such a file; so is a folder with an odometry.csv. A file `metadata`,
+/// a .json or a folder with `metadata` or `metadata.json` is Record3D's. Any other folder or name
 /// without extension is a COLMAP model. Errors: other names.
 Result<TrajectoryFormat> TrajectoryFormatOf(const std::filesystem::path& file);
 
@@ -26,8 +38,11 @@ struct TrajectoryReading {
   Transform<devices::EurocBody, Camera> body_from_camera{};
 };
 
-/// Reads TUM, EuRoC or COLMAP, in the format of the folder's files. Errors: those of the parsers,
-/// formats that can only be written.
+/// True for the formats of apps for ARKit: metres, and a frame of reference whose y axis is up.
+bool IsArkit(TrajectoryFormat format);
+
+/// Reads TUM, EuRoC, Stray Scanner, Record3D or COLMAP, in the format of the folder's files.
+/// Errors: those of the parsers, formats that can only be written.
 Result<CameraTrajectory> ReadTrajectory(const std::filesystem::path& file, TrajectoryFormat format,
                                         const TrajectoryReading& options);
 

@@ -10,6 +10,9 @@
 #include "export/trajectories/colmap_model.h"
 #include "export/trajectories/colmap_text.h"
 #include "export/trajectories/euroc_trajectory.h"
+#include "export/trajectories/place_pairs.h"
+#include "export/trajectories/record3d_trajectory.h"
+#include "export/trajectories/stray_trajectory.h"
 #include "export/trajectories/tum_trajectory.h"
 
 namespace {
@@ -59,6 +62,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   Check(pleinair::exports::ParseEurocTrajectory(
       text, "file",
       mounting.value_or(pleinair::Transform<pleinair::devices::EurocBody, pleinair::Camera>{})));
+  Check(pleinair::exports::ParseStrayOdometry(text, "file"));
+  Check(pleinair::exports::ParseRecord3dMetadata(text, "file"));
+  if (const auto lens = pleinair::exports::ParseStrayCamera(text, "file"); lens && *lens) {
+    if (!((*lens)->fx > 0.0 && std::isfinite((*lens)->cx))) std::abort();
+  }
+  const auto places = pleinair::exports::ParsePlacePairs(text, "file");
+  if (places ? places->size() < 3 : places.error().what.empty()) std::abort();
   pleinair::exports::ColmapFiles files;
   const std::size_t first = text.find("=\n");
   if (first == std::string_view::npos) return 0;
