@@ -1,23 +1,16 @@
 #include "session/anchors.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <map>
 #include <utility>
 
+#include "session/corner_deviation.h"
 #include "session/path_gaps.h"
 #include "session/scene_edit.h"
 #include "tracker/pose/anchor_fit.h"
 
 namespace pleinair::session {
 namespace {
-
-/// Standard deviation of a coordinate of a corner. Corners of covered markers are extrapolated.
-double CornerDeviation_px(double visible_fraction) {
-  constexpr double kWhole_px = 0.1, kMinVisible = 0.2;
-  const double visible = std::clamp(visible_fraction, kMinVisible, 1.0);
-  return kWhole_px / (visible * visible);
-}
 
 /// The markers of all frames, by index of the frame.
 struct AnchorFilm {

@@ -8,6 +8,7 @@
 #include "base/frames.h"
 #include "scene/scene_description.h"
 #include "session/marker_tracks.h"
+#include "session/trajectory/follow_trajectory.h"
 #include "tracker/observation.h"
 
 namespace pleinair::session {
@@ -30,10 +31,11 @@ struct AnchorSummary {
   double longest_gap_s = 0.0;
 };
 
-/// The trajectory of the camera by all markers of a scene.
+/// The trajectory of the camera by all markers of a scene, or by a given trajectory.
 struct AnchoredPath {
   std::vector<Observation> observations;  ///< One per frame with a pose.
   AnchorSummary summary;
+  std::optional<TrajectorySummary> trajectory{};  ///< Of the given one.
 };
 
 /// Name of an anchor's marker.

@@ -29,9 +29,10 @@ bool MayBeReferenceMarker(const MarkerName& marker, const scene::MarkerDescripti
 
 /// What a pose rests on.
 enum class PoseSource {
-  kMarker,   ///< The marker itself, and others beside it.
-  kAnchors,  ///< Other markers of the scene alone (session/anchors.h).
-  kMotion    ///< The camera's motion before and after (session/path_gaps.h).
+  kMarker,     ///< The marker itself, and others beside it.
+  kAnchors,    ///< Other markers of the scene alone (session/anchors.h).
+  kMotion,     ///< The camera's motion before and after (session/path_gaps.h).
+  kTrajectory  ///< A given trajectory (session/trajectory/follow_trajectory.h).
 };
 
 /// Time stamp of a frame.
@@ -47,14 +48,23 @@ struct Observation {
   Transform<Camera, Marker> camera_from_marker;
   double reprojection_rms_px = 0.0;
   double ambiguity_ratio = 0.0;   ///< Near 1: two planar poses fit equally well.
-  double visible_fraction = 1.0;  ///< Visible share of the marker, 0…1.
+  double visible_fraction = 1.0;  ///< Visible share of the marker, 0…1; 0: not seen.
   tracker::DetectionPath path = tracker::DetectionPath::kFast;  ///< Detection method.
   /// Squares per side of the marker, and their visibility, 0…255; empty where unknown.
   int visibility_side = 0;
   std::vector<std::uint8_t> visibility{};
   std::array<Vec2, 4> corners_px{};  ///< Clockwise from top-left on the upright marker.
   PoseSource source = PoseSource::kMarker;
+  /// Standard deviation of the marker's centre as the camera sees it, by the alignment of a given
+  /// trajectory, metres; 0 for other sources.
+  double centre_deviation_m = 0.0;
 };
+
+/// True if the frame shows the reference marker itself.
+inline bool ShowsReferenceMarker(const Observation& seen) {
+  return seen.source == PoseSource::kMarker ||
+         (seen.source == PoseSource::kTrajectory && seen.visible_fraction > 0.0);
+}
 
 /// Observations of a recording's markers across its frames. They determine the reference marker and
 /// the camera trajectory.

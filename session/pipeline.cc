@@ -128,6 +128,24 @@ void Pipeline::FollowAnchors() {
   anchored_ = session::FollowAnchors(camera_, scene_, tracks_, *marker);
 }
 
+Result<void> Pipeline::FollowTrajectory(const TrajectoryRequest& request) {
+  const std::optional<MarkerName> marker = tracks_.ReferenceMarker();
+  static const std::vector<Observation> kNone;
+  PLEINAIR_ASSIGN_OR_RETURN(
+      FollowedTrajectory followed,
+      session::FollowTrajectory(camera_, scene_.marker, tracks_.frame_times(),
+                                marker ? tracks_.TrackOf(*marker) : kNone, Path(), request));
+  anchored_.observations = std::move(followed.observations);
+  anchored_.trajectory = std::move(followed.summary);
+  return {};
+}
+
+std::optional<MarkerName> Pipeline::PathMarker() const {
+  if (auto marker = tracks_.ReferenceMarker()) return marker;
+  if (Path().empty()) return std::nullopt;
+  return MarkerName{scene_.marker.family.value_or(kSgFamily), scene_.marker.id.value_or(0)};
+}
+
 const std::vector<Observation>& Pipeline::Path() const {
   static const std::vector<Observation> kNone;
   if (!anchored_.observations.empty()) return anchored_.observations;
@@ -166,9 +184,9 @@ Result<ComposedFrame> Pipeline::Compose(ImageView<const std::uint8_t> rgb,
   const Observation& seen = pose->observation;
   compositor::MarkerVisibility visibility;
   if (hands_in_front_) visibility = VisibilityOf(scene_.marker, pose->marker, seen);
-  PLEINAIR_ASSIGN_OR_RETURN(
-      composed.image, renderer_->Render(rgb, seen.camera_from_marker, time, visibility,
-                                        FollowedIn(seen), seen.source == PoseSource::kMarker));
+  PLEINAIR_ASSIGN_OR_RETURN(composed.image,
+                            renderer_->Render(rgb, seen.camera_from_marker, time, visibility,
+                                              FollowedIn(seen), ShowsReferenceMarker(seen)));
   if (!renderer_->DrawsObjects()) return composed;
   composed.light = renderer_->light();
   composed.times = renderer_->times();
@@ -178,7 +196,7 @@ Result<ComposedFrame> Pipeline::Compose(ImageView<const std::uint8_t> rgb,
 FollowedLight Pipeline::FollowedIn(const Observation& seen) const {
   const LightFollower* follower = renderer_->light_follower();
   if (!follows_light_ || follower == nullptr) return {};
-  if (seen.source == PoseSource::kMarker) return follower->Of(seen.frame_index);
+  if (ShowsReferenceMarker(seen)) return follower->Of(seen.frame_index);
   // The light is known where the marker is seen; the nearest such frame counts.
   const std::optional<MarkerName> marker = tracks_.ReferenceMarker();
   if (!marker) return {};

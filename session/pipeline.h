@@ -116,11 +116,22 @@ class Pipeline {
   /// After the last frame of a recording: finds the trajectory by all markers of a scene with
   /// anchors. Does nothing for other scenes.
   void FollowAnchors();
-  /// The trajectory that ComposeFrames() draws along: that of FollowAnchors(), or the observations
-  /// of the reference marker.
+  /// After the last frame of a recording, and after FollowAnchors(): composes along a given
+  /// trajectory from now on. Errors: those of session::FollowTrajectory().
+  Result<void> FollowTrajectory(const TrajectoryRequest& request);
+  /// The trajectory that ComposeFrames() draws along: that of FollowTrajectory(), that of
+  /// FollowAnchors(), or the observations of the reference marker.
   const std::vector<Observation>& Path() const;
   /// How FollowAnchors() used the anchors.
   const AnchorSummary& anchor_summary() const { return anchored_.summary; }
+  /// How FollowTrajectory() used the given trajectory; nothing without one.
+  const std::optional<TrajectorySummary>& trajectory_summary() const {
+    return anchored_.trajectory;
+  }
+  /// The marker in whose coordinates Path() is: the observed reference marker. If no frame shows
+  /// it and a given trajectory is aligned by places, the marker that the scene describes. Nothing
+  /// without any pose.
+  std::optional<MarkerName> PathMarker() const;
 
   /// Makes this marker the light meter for the next frames. Returns true if another one was it
   /// before. Compose() does so for the marker of its pose.

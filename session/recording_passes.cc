@@ -1,5 +1,6 @@
 #include "session/recording_passes.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <future>
 #include <set>
@@ -70,10 +71,18 @@ void Resize(const Pipeline& pipeline, devices::Frame* frame, StageTimes* times) 
   });
 }
 
-const std::vector<Observation>& PathOf(const Pipeline& pipeline) {
-  static const std::vector<Observation> kNone;
+/// The frames whose light is observed: those that show the marker, which gives their exposure. With
+/// a given trajectory, all frames count if none shows it.
+std::vector<Observation> PathOf(const Pipeline& pipeline) {
+  if (pipeline.trajectory_summary()) {
+    std::vector<Observation> path = pipeline.Path();
+    if (std::any_of(path.begin(), path.end(), ShowsReferenceMarker)) {
+      std::erase_if(path, [](const Observation& at) { return !ShowsReferenceMarker(at); });
+    }
+    return path;
+  }
   const std::optional<MarkerName> marker = pipeline.tracks().ReferenceMarker();
-  return marker ? pipeline.tracks().TrackOf(*marker) : kNone;
+  return marker ? pipeline.tracks().TrackOf(*marker) : std::vector<Observation>();
 }
 
 /// Estimates the changes of the light about that of the `reference` frames; `chosen` are indices of
@@ -185,7 +194,7 @@ Result<void> EstimateLight(Pipeline& pipeline, devices::Recording recording,
   const std::vector<Observation> path = PathInFullSun(pipeline);
   const std::vector<std::size_t> chosen = LightFrames(path);
   if (chosen.empty() || !pipeline.renderer().CanMeasureLight()) return {};
-  pipeline.MeterLightOn(*pipeline.tracks().ReferenceMarker());
+  pipeline.MeterLightOn(*pipeline.PathMarker());
   const auto count = static_cast<std::int64_t>(chosen.size());
   std::int64_t done = 0;
   for (auto next = chosen.begin(); next != chosen.end();) {
@@ -202,7 +211,8 @@ Result<void> EstimateLight(Pipeline& pipeline, devices::Recording recording,
     Resize(pipeline, &*frame, &pass.times());
     pass.times().Measure("observe light", [&] {
       pipeline.renderer().ObserveLight(frame->rgb.view(), at.camera_from_marker,
-                                       pipeline.MomentOf(frame->timestamp_ns));
+                                       pipeline.MomentOf(frame->timestamp_ns),
+                                       ShowsReferenceMarker(at));
       return 0;
     });
   }
@@ -223,7 +233,7 @@ Result<void> ComposeFrames(Pipeline& pipeline, devices::Recording recording,
   Pass pass(monitor);
   const std::string name = recording.path.string();
   const std::int64_t count = pipeline.tracks().frames();
-  const std::optional<MarkerName> marker = pipeline.tracks().ReferenceMarker();
+  const std::optional<MarkerName> marker = pipeline.PathMarker();
   const std::vector<Observation>& path = pipeline.Path();
   FramePrefetcher frames(std::move(recording.frames));
   auto at = path.begin();

@@ -20,13 +20,13 @@ void SceneLight::Observe(ImageView<const std::uint8_t> rgb, const CameraModel& c
                          const Transform<Camera, Marker>& camera_from_marker, UtcTime time,
                          const scene::SceneDescription& scene,
                          const scene::MarkerReflectance& marker_reflectance,
-                         const CameraResponse& response) {
+                         const CameraResponse& response, bool shows_marker) {
   if (!estimator_) {
     estimator_ = std::make_unique<compositor::LightEstimator>(
         std::shared_ptr<const compositor::PhantomRays>(solver_, &solver_->phantoms()), camera,
         marker_reflectance, scene, options_.overrides, time, response);
   }
-  estimator_->Add(rgb, camera_from_marker);
+  estimator_->Add(rgb, camera_from_marker, shows_marker);
 }
 
 std::optional<compositor::LightEstimate> SceneLight::Conclude() {

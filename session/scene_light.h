@@ -37,7 +37,8 @@ class SceneLight {
   void Observe(ImageView<const std::uint8_t> rgb, const CameraModel& camera,
                const Transform<Camera, Marker>& camera_from_marker, UtcTime time,
                const scene::SceneDescription& scene,
-               const scene::MarkerReflectance& marker_reflectance, const CameraResponse& response);
+               const scene::MarkerReflectance& marker_reflectance, const CameraResponse& response,
+               bool shows_marker);
 
   /// Estimates the light from the frames added, and uses its skies from now on. Returns nothing if
   /// no frame was added.

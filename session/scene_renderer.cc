@@ -136,9 +136,10 @@ void SceneRenderer::SetMarkerReflectance(const scene::MarkerReflectance& marker_
 bool SceneRenderer::CanMeasureLight() const { return composer_ && !scene_.phantoms.empty(); }
 
 void SceneRenderer::ObserveLight(ImageView<const std::uint8_t> rgb,
-                                 const Transform<Camera, Marker>& camera_from_marker,
-                                 UtcTime time) {
-  light_->Observe(rgb, camera_, camera_from_marker, time, scene_, marker_reflectance_, response_);
+                                 const Transform<Camera, Marker>& camera_from_marker, UtcTime time,
+                                 bool shows_marker) {
+  light_->Observe(rgb, camera_, camera_from_marker, time, scene_, marker_reflectance_, response_,
+                  shows_marker);
 }
 
 void SceneRenderer::ProbeLight(ImageView<const std::uint8_t> rgb, const CameraModel& camera,

@@ -56,9 +56,11 @@ class SceneRenderer {
   bool CanMeasureLight() const;
 
   /// Adds a frame to the light estimate, before the first frame is rendered. All these frames share
-  /// one sun position: that at `time` of the first.
+  /// one sun position: that at `time` of the first. `shows_marker`: false where the marker is not
+  /// seen in the frame.
   void ObserveLight(ImageView<const std::uint8_t> rgb,
-                    const Transform<Camera, Marker>& camera_from_marker, UtcTime time);
+                    const Transform<Camera, Marker>& camera_from_marker, UtcTime time,
+                    bool shows_marker = true);
 
   /// Adds a frame of the recording's first pass, in order, so that its light can be followed.
   /// `camera`: the lens of these frames.

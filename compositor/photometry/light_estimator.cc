@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "compositor/light/scaled_sky.h"
@@ -87,15 +88,17 @@ LightEstimator::LightEstimator(std::shared_ptr<const PhantomRays> phantoms,
              response) {}
 
 void LightEstimator::Add(ImageView<const std::uint8_t> rgb,
-                         const Transform<Camera, Marker>& camera_from_marker) {
-  if (const auto estimate = meter_.Measure(rgb, camera_, camera_from_marker)) {
+                         const Transform<Camera, Marker>& camera_from_marker, bool shows_marker) {
+  const auto estimate =
+      shows_marker ? meter_.Measure(rgb, camera_, camera_from_marker) : std::nullopt;
+  if (estimate) {
     exposure_scale_ = estimate->exposure_scale;
     dappled_ += estimate->dappled ? 1 : 0;
     // Leaves sometimes make two levels, but neither is direct sunlight.
     const auto shadow = meter_.FindShadow(rgb, camera_, camera_from_marker);
     if (shadow && !estimate->dappled) marker_shadow_edges_.push_back(*shadow);
   }
-  samples_.AddFrame(rgb, camera_from_marker, exposure_scale_);
+  samples_.AddFrame(rgb, camera_from_marker, exposure_scale_, shows_marker);
 }
 
 bool LightEstimator::IsMarkerDivided(const UnmodelledShadows& unmodelled) const {

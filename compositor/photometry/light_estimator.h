@@ -32,7 +32,10 @@ class LightEstimator {
                  const scene::SceneDescription& scene, const LightOverrides& overrides,
                  UtcTime time, const CameraResponse& response);
 
-  void Add(ImageView<const std::uint8_t> rgb, const Transform<Camera, Marker>& camera_from_marker);
+  /// `shows_marker`: false where the marker is not seen in the frame, so that nothing is measured
+  /// on it.
+  void Add(ImageView<const std::uint8_t> rgb, const Transform<Camera, Marker>& camera_from_marker,
+           bool shows_marker = true);
   int frames() const { return samples_.frames(); }
 
   /// Estimates the light, as far as the overrides leave anything to estimate. Takes one or two

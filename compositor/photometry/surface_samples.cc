@@ -118,10 +118,11 @@ void SurfaceSamples::AddMarker(double distance_m) {
 }
 
 void SurfaceSamples::AddFrame(ImageView<const std::uint8_t> rgb,
-                              const Transform<Camera, Marker>& pose, LinearRgb exposure_scale) {
+                              const Transform<Camera, Marker>& pose, LinearRgb exposure_scale,
+                              bool shows_marker) {
   const int step = std::max(2, static_cast<int>(std::sqrt(static_cast<double>(rgb.width()) *
                                                           rgb.height() / kSamplesPerFrame)));
-  if (frames_++ == 0) AddMarker(Norm(pose.translation_m));
+  if (frames_++ == 0 && shows_marker) AddMarker(Norm(pose.translation_m));
   const int columns = rgb.width() / step, rows = rgb.height() / step;
   std::vector<std::uint8_t> taken(static_cast<std::size_t>(columns) * rows);
   const auto take = [&](Vec2 pixel) {

@@ -45,9 +45,10 @@ class SurfaceSamples {
   SurfaceSamples(const PhantomRays& phantoms, const CameraModel& camera,
                  const scene::MarkerReflectance& marker, const CameraResponse& response = {});
 
-  /// `exposure_scale` is the camera's in this frame. Only its change between frames matters.
+  /// `exposure_scale` is the camera's in this frame. Only its change between frames matters. The
+  /// first frame decides whether the marker's white counts as a surface: `shows_marker`.
   void AddFrame(ImageView<const std::uint8_t> rgb, const Transform<Camera, Marker>& pose,
-                LinearRgb exposure_scale);
+                LinearRgb exposure_scale, bool shows_marker = true);
 
   const std::vector<SurfaceSample>& samples() const { return samples_; }
   const scene::MarkerReflectance& marker() const { return marker_; }

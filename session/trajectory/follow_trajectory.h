@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/camera_model.h"
+#include "base/error.h"
+#include "scene/scene_description.h"
+#include "session/marker_tracks.h"
+#include "session/trajectory/given_trajectory.h"
+#include "session/trajectory/trajectory_alignment.h"
+#include "session/trajectory/trajectory_offset.h"
+
+namespace pleinair::session {
+
+/// Frames by the source of their pose.
+struct TrajectoryFrames {
+  std::int64_t by_trajectory = 0;
+  std::int64_t without_marker = 0;  ///< Of these, frames that do not show the marker.
+  std::int64_t by_marker = 0;       ///< Outside the trajectory: by the marker's own pose.
+  std::int64_t filled = 0;          ///< By the camera's motion before and after.
+  std::int64_t missing = 0;         ///< Without a pose.
+};
+
+/// How a given trajectory was used.
+struct TrajectorySummary {
+  std::string file;
+  bool by_frame = false, by_points = false, is_metric = false;
+  TrajectoryOffset offset;
+  TrajectoryAlignment alignment;
+  TrajectoryFrames frames;
+  /// Root mean square distance of the marker's corners from their places by the trajectory, over
+  /// all frames that show it. Nothing: no such frame.
+  std::optional<double> marker_rms_px;
+  double centre_deviation_m = 0.0;  ///< Median over the frames by the trajectory.
+  /// Angle between the trajectory's upward direction and the scene's; nothing: the format has none.
+  std::optional<Radians> tilt;
+};
+
+/// The camera's trajectory by a given one.
+struct FollowedTrajectory {
+  std::vector<Observation> observations;  ///< One per frame with a pose.
+  TrajectorySummary summary;
+};
+
+/// Composes along a given trajectory: finds the offset of its clock and aligns it with the marker's
+/// frame. Every frame takes its pose from it, with and without marker, so that nothing jumps where
+/// the marker leaves the view. Frames outside the trajectory keep the pose of `marker_path`, and
+/// short gaps are filled (session/path_gaps.h). `track`: the frames that show the reference marker.
+/// Errors: those of AlignByMarker() and AlignByPoints(). The trajectory has a pose for no frame, or
+/// puts the marker farther than half its edge from where it is seen.
+Result<FollowedTrajectory> FollowTrajectory(const CameraModel& camera,
+                                            const scene::MarkerDescription& marker,
+                                            const std::vector<FrameTime>& times,
+                                            const std::vector<Observation>& track,
+                                            const std::vector<Observation>& marker_path,
+                                            const TrajectoryRequest& request);
+
+}  // namespace pleinair::session
