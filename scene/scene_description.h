@@ -12,6 +12,7 @@
 #include "base/vector.h"
 #include "scene/described_surface.h"
 #include "scene/leaf_description.h"
+#include "scene/trajectory_description.h"
 
 namespace pleinair::scene {
 
@@ -94,6 +95,7 @@ struct SceneDescription {
   PlaceTime place_time;
   MarkerDescription marker;
   std::vector<AnchorDescription> anchors;
+  std::optional<TrajectoryDescription> trajectory;
   std::vector<ModelReference> phantoms;  ///< Proxy geometry of real surfaces, see
                                          ///< docs/conventions.md.
   std::vector<ModelReference> objects;   ///< Virtual objects.

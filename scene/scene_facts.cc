@@ -297,6 +297,7 @@ Result<SceneDescription> CompleteScene(const SceneFacts& facts, const std::files
   scene.file = file;
   PLEINAIR_ASSIGN_OR_RETURN(scene.place_time, CompletePlaceTime(facts.place_time, name));
   PLEINAIR_ASSIGN_OR_RETURN(scene.marker, CompleteMarker(facts.marker, scene.place_time, name));
+  scene.trajectory = facts.trajectory;
   PLEINAIR_ASSIGN_OR_RETURN(scene.anchors, CompleteAnchors(facts.anchors, scene.marker, name));
   // Otherwise an anchor of another family with the same number could pass for the marker.
   if (!scene.anchors.empty() && !scene.marker.family) scene.marker.family = kOurFamily;

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "scene/scene_description.h"
+#include "scene/trajectory_description.h"
 
 namespace pleinair::scene {
 
@@ -51,6 +52,7 @@ struct SceneFacts {
   PlaceTimeFacts place_time;
   MarkerFacts marker;
   std::vector<AnchorFacts> anchors;
+  std::optional<TrajectoryDescription> trajectory;
   std::vector<ModelReference> phantoms, objects;  ///< Paths as in the file, relative to the scene's
                                                   ///< folder.
   std::vector<LeafDescription> leaves;

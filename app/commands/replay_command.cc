@@ -21,6 +21,8 @@ constexpr const char* kReplayExamples =
     "  pleinair replay photo.jpg --calibration phone.yaml --scene scene.toml -o out/photo\n"
     "  pleinair replay site/ -o out/part --from 2.5 --to 6   (seconds)\n"
     "  pleinair replay walk.mp4 --calibration phone.yaml --scene site/scene.toml -o out/walk\n"
+    "  pleinair replay site/ -o out/walk --trajectory scan/   (Stray Scanner; the marker once)\n"
+    "  pleinair replay site/ -o out/walk --trajectory sparse/0 --trajectory-points places.txt\n"
     "  pleinair replay sites/* -o out --shard 2/8   (every eighth project, from the second)\n"
     "Writes composite.mp4, poses/MARKER.tum, detections.jsonl, report.json, report.html and, with\n"
     "--frames, frames/0000.png and so on. docs/guide/reference/recordings.md describes recordings "

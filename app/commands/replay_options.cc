@@ -4,6 +4,7 @@
 
 #include "app/options/light_options.h"
 #include "app/options/number_range.h"
+#include "app/options/trajectory_options.h"
 
 namespace pleinair::app {
 
@@ -36,6 +37,7 @@ void AddReplayOptions(CLI::App& command, ReplayArguments& arguments) {
                   "End with the last frame at or before this time, in seconds of the recording")
       ->check(NumberRange(0.0, kMaxTime_s))
       ->excludes(frame);
+  AddTrajectoryOptions(command, arguments.options.trajectory);
   command.add_flag("--frames", arguments.written.frames, "Also write every frame as a PNG picture");
   command
       .add_option("--export", arguments.exports,

@@ -14,6 +14,7 @@
 
 #include "app/options/picture_size.h"
 #include "app/options/shard_option.h"
+#include "app/options/trajectory_options.h"
 #include "app/replay/output_names.h"
 #include "app/replay/report/report_json.h"
 #include "app/terminal/interrupt.h"
@@ -54,6 +55,7 @@ std::string CommandText(const ReplayArguments& arguments) {
   if (arguments.range.frame) text += fmt::format(" --frame {}", *arguments.range.frame);
   if (arguments.range.from_s) text += fmt::format(" --from {}", *arguments.range.from_s);
   if (arguments.range.to_s) text += fmt::format(" --to {}", *arguments.range.to_s);
+  text += TrajectoryOptionText(arguments.options.trajectory, Quoted);
   if (arguments.written.frames) text += " --frames";
   if (!arguments.size.empty()) text += " --size " + arguments.size;
   for (std::size_t i = 0; i < arguments.exports.size(); ++i) {
@@ -131,7 +133,7 @@ Result<void> Run(ReplayArguments& arguments) {
     options.time_lapse->frame = arguments.day.frame;
   }
   for (const std::string& name : arguments.exports) {
-    options.exports.insert(exports::TrajectoryFormatNamed(name).value());
+    options.write.exports.insert(exports::TrajectoryFormatNamed(name).value());
   }
   options.composer.shadow_method = shadows::FindShadowMethod(arguments.research.shadows)->method;
   if (!arguments.research.shader_directory.empty()) {

@@ -36,7 +36,8 @@ bool IsNamedLikeOutput(const fs::path& relative) {
   if (folder.empty()) {
     return name == "composite.mp4" || name == "detections.jsonl" || name == "light.csv" ||
            name == "report.json" || name == "report.html" || name == "camera.glb" ||
-           name == "camera.mcap" || name == "camera_from_film.json" || name == "timelapse.mp4" ||
+           name == "camera.mcap" || name == "camera_from_film.json" ||
+           name == "camera_from_trajectory.json" || name == "timelapse.mp4" ||
            name == "timelapse.png";
   }
   if (folder == "poses") return relative.extension() == ".tum" || relative.extension() == ".csv";

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "app/output/observed_trajectory.h"
+#include "app/output/pose_sources.h"
 #include "base/atomic_file.h"
 #include "export/trajectories/colmap_folder.h"
 
@@ -37,6 +38,15 @@ Result<std::vector<std::string>> WriteMarkerTrajectory(
     outputs.push_back(name);
   }
   return outputs;
+}
+
+Result<std::vector<std::string>> WriteGivenTrajectory(const std::vector<session::Observation>& path,
+                                                      const std::filesystem::path& folder) {
+  PLEINAIR_RETURN_IF_ERROR(exports::WriteTrajectory(
+      ObservedTrajectory(path), folder / "poses/trajectory.tum", exports::TrajectoryFormat::kTum,
+      {.comment = kObservedTrajectoryComment}));
+  PLEINAIR_RETURN_IF_ERROR(WriteFileAtomically(folder / "poses/sources.csv", PoseSourcesCsv(path)));
+  return std::vector<std::string>{"poses/trajectory.tum", "poses/sources.csv"};
 }
 
 Result<std::vector<std::string>> ExportTrajectory(

@@ -31,6 +31,11 @@ Result<std::vector<std::string>> WriteMarkerTrajectory(
     const session::MarkerName& marker, const exports::CameraTrajectory& path,
     const std::set<exports::TrajectoryFormat>& formats, const std::filesystem::path& folder);
 
+/// Writes a trajectory that follows a given one: poses/trajectory.tum, and poses/sources.csv with
+/// the source of each pose. Returns the names.
+Result<std::vector<std::string>> WriteGivenTrajectory(const std::vector<session::Observation>& path,
+                                                      const std::filesystem::path& folder);
+
 /// Writes the reference marker's trajectory into a folder as `camera.glb`, `colmap/` or
 /// `camera.mcap`, and returns the names. Without observations of the reference marker only MCAP is
 /// written, with the observations of other markers. WriteMarkerTrajectory writes `euroc`.

@@ -6,6 +6,7 @@
 
 #include "app/calibrate/film_lens.h"
 #include "app/calibrate/picture_stream.h"
+#include "app/replay/given_trajectory.h"
 #include "base/atomic_file.h"
 #include "devices/calibration/calibration_text.h"
 #include "devices/images/image_file.h"
@@ -19,6 +20,33 @@ bool IsFilm(const std::filesystem::path& file) {
   std::error_code error;
   return std::filesystem::is_regular_file(file, error) && file.extension() != ".json" &&
          file.extension() != ".mcap" && !devices::IsImageFile(file);
+}
+
+/// The trajectory of the options, or of the scene file.
+Result<std::optional<scene::TrajectoryDescription>> TrajectoryNamed(const ReplayOptions& options) {
+  if (!options.trajectory.file.empty()) return options.trajectory;
+  if (!options.scene) return std::nullopt;
+  PLEINAIR_ASSIGN_OR_RETURN(const std::string bytes,
+                            files::ReadWholeFile(*options.scene, files::kMaxDescriptionBytes));
+  PLEINAIR_ASSIGN_OR_RETURN(scene::SceneFacts facts,
+                            scene::ParseScene(bytes, options.scene->string()));
+  return std::move(facts.trajectory);
+}
+
+/// The lens with which a trajectory was estimated; nothing if it has none, or one of turned images.
+Result<std::optional<FilmCalibration>> CalibrateFromTrajectory(const ReplayOptions& options,
+                                                               const OutputFolder& folder) {
+  PLEINAIR_ASSIGN_OR_RETURN(const auto trajectory, TrajectoryNamed(options));
+  if (!trajectory || trajectory->turn_deg != 0) return std::nullopt;
+  PLEINAIR_ASSIGN_OR_RETURN(const exports::CameraTrajectory path, ReadTrajectoryFile(*trajectory));
+  if (!path.camera) return std::nullopt;
+  PLEINAIR_ASSIGN_OR_RETURN(const std::string text,
+                            devices::CalibrationText(*path.camera, devices::CalibrationForm::kOwn));
+  FilmCalibration calibration{folder.staging() / "camera_from_trajectory.json",
+                              "No calibration was given. The lens is that of the trajectory " +
+                                  trajectory->file.string() + " (camera_from_trajectory.json)."};
+  PLEINAIR_RETURN_IF_ERROR(WriteFileAtomically(calibration.file, text));
+  return calibration;
 }
 
 /// The families to look for: the scene's, or those that replay looks for.
@@ -46,6 +74,8 @@ Result<tracker::MarkerViewOptions> ViewsOfScene(const ReplayOptions& options) {
 Result<std::optional<FilmCalibration>> CalibrateFromFilm(const ReplayOptions& options,
                                                          const OutputFolder& folder) {
   if (options.calibration || !IsFilm(options.recording)) return std::nullopt;
+  PLEINAIR_ASSIGN_OR_RETURN(auto by_trajectory, CalibrateFromTrajectory(options, folder));
+  if (by_trajectory) return by_trajectory;
   PLEINAIR_ASSIGN_OR_RETURN(const tracker::MarkerViewOptions views, ViewsOfScene(options));
   const std::string name = options.recording.string();
   PLEINAIR_ASSIGN_OR_RETURN(const auto pictures, OpenPictures({name}, {}));

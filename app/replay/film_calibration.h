@@ -16,9 +16,11 @@ struct FilmCalibration {
   std::string sentence;  ///< For the report.
 };
 
-/// Estimates the lens of a film that comes without a calibration from its markers, and writes
-/// camera_from_film.json to the output folder. Nothing if a calibration is given, or if the
-/// recording is not a film. Errors: those of EstimateFilmLens(); no scene, an unreadable one.
+/// The lens of a film that comes without a calibration. It is that of a given trajectory, written
+/// to camera_from_trajectory.json in the output folder. A trajectory without a lens, or none: it is
+/// estimated from the film's markers and written to camera_from_film.json. Nothing if a calibration
+/// is given, or if the recording is not a film. Errors: those of EstimateFilmLens(); no scene, an
+/// unreadable one.
 Result<std::optional<FilmCalibration>> CalibrateFromFilm(const ReplayOptions& options,
                                                          const OutputFolder& folder);
 

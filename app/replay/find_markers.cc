@@ -15,7 +15,8 @@ namespace pleinair::app {
 Result<void> FindMarkers(ReplayState& state, devices::Recording recording) {
   PLEINAIR_ASSIGN_OR_RETURN(auto detections,
                             DetectionsWriter::Create(state.folder.staging() / "detections.jsonl"));
-  const bool keeps_messages = state.options.exports.contains(exports::TrajectoryFormat::kMcap);
+  const bool keeps_messages =
+      state.options.write.exports.contains(exports::TrajectoryFormat::kMcap);
   bool is_first = true;
   const auto take = [&](const devices::Frame& frame,
                         const session::TrackedFrame& tracked) -> Result<void> {
@@ -23,6 +24,11 @@ Result<void> FindMarkers(ReplayState& state, devices::Recording recording) {
     if (is_first) {
       state.first_stamp_ns = frame.timestamp_ns;
       state.report.film.first_frame = frame.index;
+      std::int64_t start_ns = 0;
+      if (frame.device_timestamp_ns &&
+          !__builtin_sub_overflow(*frame.device_timestamp_ns, frame.timestamp_ns, &start_ns)) {
+        state.report.film.clock_start_ns = start_ns;
+      }
     }
     is_first = false;
     state.lost_frames += frame.lost_before;
@@ -48,17 +54,21 @@ Result<void> WriteTrajectories(ReplayState& state) {
     report.files.outputs.insert(report.files.outputs.end(), written.begin(), written.end());
   };
   report.reference_marker = tracks.ReferenceMarker();
-  if (report.reference_marker) {
-    report.path = state.pipeline->Path();
-    report.anchors = state.pipeline->anchor_summary();
-    state.pipeline->MeterLightOn(*report.reference_marker);
-  }
+  report.path = state.pipeline->Path();
+  report.placing = {state.pipeline->anchor_summary(), state.pipeline->trajectory_summary()};
+  if (const auto marker = state.pipeline->PathMarker()) state.pipeline->MeterLightOn(*marker);
   PLEINAIR_RETURN_IF_ERROR(state.folder.MakeFolder("poses"));
   for (const auto& [marker, observed] : tracks.tracks()) {
     report.markers.push_back(marker);
+    PLEINAIR_ASSIGN_OR_RETURN(
+        std::vector<std::string> written,
+        WriteMarkerTrajectory(marker, ObservedTrajectory(observed), state.options.write.exports,
+                              state.folder.staging()));
+    keep(std::move(written));
+  }
+  if (report.placing.trajectory) {
     PLEINAIR_ASSIGN_OR_RETURN(std::vector<std::string> written,
-                              WriteMarkerTrajectory(marker, ObservedTrajectory(observed),
-                                                    state.options.exports, state.folder.staging()));
+                              WriteGivenTrajectory(report.path, state.folder.staging()));
     keep(std::move(written));
   }
   exports::CameraTrajectory path = ObservedTrajectory(report.path);
@@ -66,7 +76,7 @@ Result<void> WriteTrajectories(ReplayState& state) {
   PLEINAIR_ASSIGN_OR_RETURN(
       std::vector<std::string> exported,
       ExportTrajectory({std::move(path), state.scene(), std::exchange(state.messages, {})},
-                       state.options.exports, state.folder.staging()));
+                       state.options.write.exports, state.folder.staging()));
   keep(std::move(exported));
   return {};
 }

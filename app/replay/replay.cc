@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <system_error>
 #include <utility>
 
@@ -13,6 +14,7 @@
 #include "app/replay/estimate_light.h"
 #include "app/replay/film_calibration.h"
 #include "app/replay/find_markers.h"
+#include "app/replay/given_trajectory.h"
 #include "app/replay/placement_warnings.h"
 #include "app/replay/replay_state.h"
 #include "app/replay/replay_warnings.h"
@@ -43,24 +45,42 @@ void Describe(const devices::Recording& recording, const ReplayState& state, Rep
   report->film.height = state.pipeline->output_camera().height;
 }
 
-/// Opens the recording and loads its scene. Errors in the request appear before the long detection
-/// pass.
-Result<devices::Recording> Prepare(ReplayState& state) {
+/// The trajectory that is composed along; nothing without one.
+Result<std::optional<session::TrajectoryRequest>> TrajectoryOf(
+    const ReplayOptions& options, const scene::SceneDescription& scene) {
+  if (!options.trajectory.file.empty()) return ReadGivenTrajectory(options.trajectory);
+  if (scene.trajectory) return ReadGivenTrajectory(*scene.trajectory);
+  return std::nullopt;
+}
+
+/// What is read before the first frame.
+struct PreparedReplay {
+  devices::Recording recording;
+  std::optional<session::TrajectoryRequest> trajectory;
+};
+
+/// Opens the recording and loads its scene and its trajectory. Errors in the request appear before
+/// the long detection pass.
+Result<PreparedReplay> Prepare(ReplayState& state) {
   const ReplayOptions& options = state.options;
   PLEINAIR_ASSIGN_OR_RETURN(devices::Recording recording, state.OpenRecording());
   if (!recording.scene) {
     return InputError(options.recording.string(), "has no scene",
                       "write one (docs/guide/reference/recordings.md) and give it with --scene");
   }
-  if (recording.is_photo) state.write = {.frames = true, .video = false};
+  if (recording.is_photo) {
+    state.write.frames = true;
+    state.write.video = false;
+  }
   if (options.time_lapse) {
     PLEINAIR_ASSIGN_OR_RETURN(state.day_moments,
                               MomentsOf(*options.time_lapse, recording.scene->place_time));
   }
+  PLEINAIR_ASSIGN_OR_RETURN(auto trajectory, TrajectoryOf(options, *recording.scene));
   PLEINAIR_RETURN_IF_ERROR(CheckFrameOfDay(options, *recording.frames));
   const CameraModel& camera = recording.camera;
   PLEINAIR_RETURN_IF_ERROR(CheckExports(
-      options.exports,
+      options.write.exports,
       ScaleCamera(camera, options.size.value_or(ImageSize{camera.width, camera.height}))));
   PLEINAIR_RETURN_IF_ERROR(CheckInterrupt(options.recording.string()));
   session::LightOptions light = options.light;
@@ -72,7 +92,7 @@ Result<devices::Recording> Prepare(ReplayState& state) {
           {.composer = options.composer, .light = std::move(light), .image_size = options.size}));
   Describe(recording, state, &state.report);
   if (!recording.camera_note.empty()) state.report.warnings.push_back(recording.camera_note);
-  return recording;
+  return PreparedReplay{std::move(recording), std::move(trajectory)};
 }
 
 bool AssumesGround(const scene::SceneDescription& scene) {
@@ -133,9 +153,13 @@ Result<void> WriteReports(ReplayState& state) {
 
 /// Runs all steps, from opening the recording to the finished folder.
 Result<void> Run(ReplayState& state) {
-  PLEINAIR_ASSIGN_OR_RETURN(devices::Recording recording, Prepare(state));
+  PLEINAIR_ASSIGN_OR_RETURN(PreparedReplay prepared, Prepare(state));
   const std::string& name = state.report.call.recording;
-  PLEINAIR_RETURN_IF_ERROR(FindMarkers(state, std::move(recording)));
+  PLEINAIR_RETURN_IF_ERROR(FindMarkers(state, std::move(prepared.recording)));
+  if (prepared.trajectory) {
+    prepared.trajectory->clock_start_ns = state.report.film.clock_start_ns;
+    PLEINAIR_RETURN_IF_ERROR(state.pipeline->FollowTrajectory(*prepared.trajectory));
+  }
   PLEINAIR_RETURN_IF_ERROR(WriteTrajectories(state));
   if (state.DrawsDay()) PLEINAIR_RETURN_IF_ERROR(ViewOfDay(state));
   Warn(state);

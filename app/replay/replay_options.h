@@ -10,14 +10,16 @@
 #include "compositor/composer_options.h"
 #include "devices/recordings/frame_range.h"
 #include "export/trajectories/trajectory_files.h"
+#include "scene/trajectory_description.h"
 #include "session/light_options.h"
 
 namespace pleinair::app {
 
-/// Images that a replay writes.
-struct WrittenImages {
+/// Images and trajectories that a replay writes.
+struct WrittenOutputs {
   bool frames = false;  ///< One file a frame.
   bool video = true;
+  std::set<exports::TrajectoryFormat> exports{};  ///< Trajectory formats in addition to TUM.
 };
 
 /// Input and options of a replay.
@@ -27,8 +29,9 @@ struct ReplayOptions {
   std::optional<std::filesystem::path> scene;        ///< Replaces the recording's scene.
   std::optional<std::filesystem::path> calibration;  ///< Required for a plain video.
   devices::FrameRange range;                         ///< Part of the recording; all by default.
-  WrittenImages write;
-  std::set<exports::TrajectoryFormat> exports;  ///< Trajectory formats in addition to TUM.
+  WrittenOutputs write;
+  /// Given on the command line; without a file, the scene's counts.
+  scene::TrajectoryDescription trajectory;
   compositor::ComposerOptions composer;
   session::LightOptions light;
   std::optional<ImageSize> size;  ///< Of the output; detection uses the recording's size.

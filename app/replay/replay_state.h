@@ -26,7 +26,7 @@ namespace pleinair::app {
 struct ReplayState {
   const ReplayOptions& options;
   OutputFolder folder;
-  WrittenImages write = options.write;  ///< For a photograph: frames and no video.
+  WrittenOutputs write = options.write;  ///< For a photograph: frames and no video.
   std::unique_ptr<session::Pipeline> pipeline{};
   FrameWarnings frame_warnings{};                   ///< From the tracker.
   std::vector<exports::MarkersMessage> messages{};  ///< Lines of detections.jsonl, for MCAP.

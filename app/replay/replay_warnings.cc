@@ -9,6 +9,7 @@
 #include <map>
 #include <set>
 
+#include "app/replay/trajectory_warnings.h"
 #include "compositor/passes/render_targets.h"
 
 namespace pleinair::app {
@@ -90,14 +91,16 @@ std::vector<std::string> MarkerWarnings(const ReplayReport& report,
                                         const scene::SceneDescription& scene) {
   std::vector<std::string> warnings;
   const auto missing = report.film.frames - static_cast<std::int64_t>(report.path.size());
-  if (!report.reference_marker) {
+  if (report.placing.trajectory) {
+    warnings = TrajectoryWarnings(*report.placing.trajectory);
+  } else if (!report.reference_marker) {
     warnings.push_back(NeverSeen(report, scene.marker));
   } else if (missing > 0) {
     warnings.push_back(
         fmt::format("{} of {} frames show no marker {}: they are left as they were recorded.",
                     missing, report.film.frames, report.reference_marker->ToString()));
   }
-  for (std::string& sentence : AnchorWarnings(report.anchors)) {
+  for (std::string& sentence : AnchorWarnings(report.placing.anchors)) {
     warnings.push_back(std::move(sentence));
   }
   if (marker_tracks.frames_with_duplicates() > 0) {

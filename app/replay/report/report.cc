@@ -13,7 +13,9 @@ PoseStatistics SummarizeTrajectory(const std::vector<session::Observation>& path
   for (std::size_t i = 0; i < path.size(); ++i) {
     const session::Observation& at = path[i];
     distances_m.push_back(Norm(at.camera_from_marker.translation_m));
-    if (at.source != session::PoseSource::kMotion) {
+    const bool by_trajectory = at.source == session::PoseSource::kTrajectory;
+    if (at.source != session::PoseSource::kMotion &&
+        (!by_trajectory || session::ShowsReferenceMarker(at))) {
       errors_px.push_back(at.reprojection_rms_px);
       visible.push_back(at.visible_fraction);
       ++statistics.found_by[static_cast<std::size_t>(at.path)];
@@ -30,12 +32,13 @@ PoseStatistics SummarizeTrajectory(const std::vector<session::Observation>& path
   statistics.distance_min_m = *nearest;
   statistics.distance_max_m = *farthest;
   statistics.distance_median_m = StageTimes::Quantile(distances_m, 0.5);
+  statistics.step_rotation_p95_deg = StageTimes::Quantile(turns_deg, 0.95);
+  statistics.step_translation_p95_m = StageTimes::Quantile(moves_m, 0.95);
+  if (visible.empty()) return statistics;
   statistics.visible_min = *std::min_element(visible.begin(), visible.end());
   statistics.visible_median = StageTimes::Quantile(visible, 0.5);
   statistics.reprojection_median_px = StageTimes::Quantile(errors_px, 0.5);
   statistics.reprojection_p95_px = StageTimes::Quantile(errors_px, 0.95);
-  statistics.step_rotation_p95_deg = StageTimes::Quantile(turns_deg, 0.95);
-  statistics.step_translation_p95_m = StageTimes::Quantile(moves_m, 0.95);
   return statistics;
 }
 

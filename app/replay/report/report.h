@@ -39,6 +39,7 @@ struct ReplayedFilm {
   devices::FilmCurve curve = devices::FilmCurve::kSrgb;  ///< Curve of the frames' pixel values.
   std::int64_t first_frame = 0;                          ///< Index in the recording.
   std::int64_t frames = 0;
+  std::optional<std::int64_t> clock_start_ns;  ///< Its start by the camera's own clock.
 };
 
 /// The composited scene.
@@ -46,6 +47,12 @@ struct ReplayedScene {
   scene::PlaceTime place_time;
   scene::Cloudiness cloudiness = scene::Cloudiness::kClear;
   std::size_t virtual_objects = 0, phantoms = 0;
+};
+
+/// What the camera's poses rest on, besides the marker.
+struct ReplayedPlacing {
+  session::AnchorSummary anchors;
+  std::optional<session::TrajectorySummary> trajectory;  ///< Of a given one.
 };
 
 /// The light of the frames.
@@ -71,7 +78,7 @@ struct ReplayReport {
   std::vector<session::MarkerName> markers;  ///< Every observed marker.
   /// Camera trajectory against the reference marker: one entry per frame with a pose.
   std::vector<session::Observation> path;
-  session::AnchorSummary anchors;
+  ReplayedPlacing placing;
   std::optional<session::LightSummary> light;  ///< Nothing if nothing had to be lit.
   ReplayedLight light_changes;
   ReplayFiles files;

@@ -231,6 +231,11 @@ std::string ReportHtml(const ReplayReport& report) {
           files::EscapeMarkup(report.call.command) + "</code></p>\n<div class=\"cards\">\n";
   html +=
       Card(fmt::format("{} of {}", report.path.size(), report.film.frames), "frames with a pose");
+  if (const auto& trajectory = report.placing.trajectory) {
+    html += Card(std::to_string(trajectory->frames.by_trajectory),
+                 fmt::format("frames with the pose of a given trajectory, {} without marker",
+                             trajectory->frames.without_marker));
+  }
   html += Card(report.reference_marker ? report.reference_marker->ToString() : "none",
                "marker that anchors the scene");
   html += Card(fmt::format("{}×{}, {:.4g} Hz", report.film.width, report.film.height,

@@ -189,6 +189,40 @@ Json AnchorsJson(const session::AnchorSummary& summary) {
           {"longest_gap_s", Rounded(summary.longest_gap_s)}};
 }
 
+Json TrajectoryJson(const session::TrajectorySummary& summary) {
+  const session::TrajectoryAlignment& alignment = summary.alignment;
+  const session::TrajectorySimilarity& similarity = alignment.marker_from_trajectory;
+  constexpr double kNanosecond_s = 1e-9;
+  const Vec3& t = similarity.translation_m;
+  Json rotation = Json::array();
+  for (const double element : similarity.rotation.m) rotation.push_back(Rounded(element));
+  const char* unit = summary.by_points ? "m" : "px";
+  Json json{{"file", summary.file},
+            {"matched_by", summary.by_frame ? "frame" : "time"},
+            {"offset_s", Rounded(static_cast<double>(summary.offset.offset_ns) * kNanosecond_s)},
+            {"offset_deviation_s", nullptr},
+            {"aligned_by", summary.by_points ? "places" : "marker"},
+            {"used", alignment.used},
+            {"outliers", alignment.outliers},
+            {std::string("residual_rms_") + unit, Rounded(alignment.residual_rms)},
+            {std::string("residual_max_") + unit, Rounded(alignment.residual_max)},
+            {"marker_rms_px", nullptr},
+            {"marker_from_trajectory",
+             {{"scale", Rounded(similarity.scale)},
+              {"rotation", std::move(rotation)},
+              {"translation_m", {Rounded(t.x), Rounded(t.y), Rounded(t.z)}}}},
+            {"centre_deviation_m", Rounded(summary.centre_deviation_m)},
+            {"frames_by_trajectory", summary.frames.by_trajectory},
+            {"frames_without_marker", summary.frames.without_marker},
+            {"frames_by_marker", summary.frames.by_marker},
+            {"filled_frames", summary.frames.filled},
+            {"missing_frames", summary.frames.missing}};
+  if (summary.offset.deviation_s) json["offset_deviation_s"] = Rounded(*summary.offset.deviation_s);
+  if (summary.marker_rms_px) json["marker_rms_px"] = Rounded(*summary.marker_rms_px);
+  if (summary.tilt) json["tilt_deg"] = Rounded(ToDegrees(*summary.tilt));
+  return json;
+}
+
 Json TimingsJson(const ReplayReport& report) {
   Json timings = Json::array();
   for (const StageTimes::Summary& stage : report.timings) {
@@ -219,7 +253,10 @@ std::string ReportJson(const ReplayReport& report) {
   json["markers_seen"] = Json::array();
   for (const session::MarkerName& marker : report.markers)
     json["markers_seen"].push_back(marker.ToString());
-  if (!report.anchors.anchors.empty()) json["anchors"] = AnchorsJson(report.anchors);
+  if (!report.placing.anchors.anchors.empty()) {
+    json["anchors"] = AnchorsJson(report.placing.anchors);
+  }
+  if (report.placing.trajectory) json["trajectory"] = TrajectoryJson(*report.placing.trajectory);
   json["poses"] = report.path.empty() ? Json() : PosesJson(report);
   json["place_time"] = {{"latitude_deg", Rounded(report.scene.place_time.latitude_deg)},
                         {"longitude_deg", Rounded(report.scene.place_time.longitude_deg)},
