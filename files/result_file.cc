@@ -38,11 +38,7 @@ Result<ResultFile> ResultFile::Open(const std::string& path) {
   ResultFile output;
   if (path.empty()) return output;
   output.path_ = path;
-  std::error_code ignored;
-  const auto status = std::filesystem::status(output.path_, ignored);
-  const bool device = std::filesystem::exists(status) &&
-                      !std::filesystem::is_regular_file(status) &&
-                      !std::filesystem::is_directory(status);
+  const bool device = IsDevice(output.path_);
   if (!device) output.temporary_ = TemporarySibling(output.path_);
   errno = 0;
   output.file_ = std::make_unique<std::ofstream>(device ? output.path_ : output.temporary_,

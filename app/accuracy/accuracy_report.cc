@@ -100,10 +100,7 @@ Result<WrittenReport> WriteAccuracyReport(const std::vector<RecordParts>& folder
   for (const accuracy::ImageRecord& picture : gathered.records.pictures) {
     picture_lines += PictureJson(picture) + "\n";
   }
-  std::error_code error;
-  std::filesystem::create_directories(output, error);
-  if (error) return tl::make_unexpected(WriteError(output, error.value()));
-  PLEINAIR_RETURN_IF_ERROR(folders[0].WriteRunFile(output));
+  PLEINAIR_RETURN_IF_ERROR(folders[0].ClaimFolder(output));
   PLEINAIR_RETURN_IF_ERROR(WriteFileAtomically(output / "records.jsonl", lines));
   if (!picture_lines.empty()) {
     PLEINAIR_RETURN_IF_ERROR(WriteFileAtomically(output / "pictures.jsonl", picture_lines));

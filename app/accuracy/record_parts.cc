@@ -9,7 +9,9 @@
 
 #include "app/accuracy/record_fields.h"
 #include "app/accuracy/record_json.h"
+#include "app/output/earlier_replay.h"
 #include "base/atomic_file.h"
+#include "files/output_rule.h"
 
 namespace pleinair::app {
 namespace {
@@ -60,20 +62,33 @@ Result<RecordParts> RecordParts::Open(const fs::path& folder, const AccuracyConf
   parts.config_ = config;
   parts.config_json_ = ConfigJson(config);
   parts.chunks_ = chunks;
-  const auto there = ReadAll(folder / "run.json");
-  if (there && *there != RunJson(parts.config_json_, chunks)) {
-    return InputError(folder.string(), "holds an accuracy run of another configuration or version",
-                      "choose another folder with -o, or remove it");
-  }
+  PLEINAIR_RETURN_IF_ERROR(parts.ClaimFolder(folder));
   std::error_code error;
   fs::create_directories(folder / "parts", error);
   if (error) return tl::make_unexpected(WriteError(folder, error.value()));
-  if (!there) PLEINAIR_RETURN_IF_ERROR(parts.WriteRunFile(folder));
   return parts;
 }
 
-Result<void> RecordParts::WriteRunFile(const fs::path& folder) const {
-  return WriteFileAtomically(folder / "run.json", RunJson(config_json_, chunks_));
+Result<void> RecordParts::ClaimFolder(const fs::path& folder) const {
+  PLEINAIR_RETURN_IF_ERROR(CheckIsNoRecording(folder));
+  const std::string run = RunJson(config_json_, chunks_);
+  // Without run.json, files of these names are the user's. They are listed first: another shard may
+  // write both meanwhile, run.json before the others.
+  Result<void> free;
+  for (const char* name : {"records.jsonl", "pictures.jsonl", "times.json", "times.html",
+                           "report.html", "report.json", "parts"}) {
+    if (free) free = files::CheckFreeName(folder / name);
+  }
+  if (const auto there = ReadAll(folder / "run.json")) {
+    if (*there == run) return {};
+    return InputError(folder.string(), "holds an accuracy run of another configuration or version",
+                      "choose another folder with -o, or remove it");
+  }
+  if (!free) return free;
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) return tl::make_unexpected(WriteError(folder, error.value()));
+  return WriteFileAtomically(folder / "run.json", run);
 }
 
 Result<RecordParts> RecordParts::Read(const fs::path& folder) {

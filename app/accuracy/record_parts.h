@@ -28,14 +28,15 @@ struct RecordPart {
 class RecordParts {
  public:
   /// Creates the folder with its run.json, or opens that of an earlier run. Errors (input): the
-  /// folder holds a run of another configuration; no permission.
+  /// folder holds a run of another configuration, or files that no run wrote; it is a recording; no
+  /// permission.
   static Result<RecordParts> Open(const std::filesystem::path& folder, const AccuracyConfig& config,
                                   std::int64_t chunks);
   /// Opens an existing folder. Errors (input): there is none.
   static Result<RecordParts> Read(const std::filesystem::path& folder);
 
-  /// Writes run.json to another folder.
-  Result<void> WriteRunFile(const std::filesystem::path& folder) const;
+  /// Creates a folder of this run with its run.json. Errors: as Open().
+  Result<void> ClaimFolder(const std::filesystem::path& folder) const;
 
   const std::filesystem::path& folder() const { return folder_; }
   const AccuracyConfig& config() const { return config_; }

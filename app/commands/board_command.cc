@@ -14,6 +14,7 @@
 #include "app/calibrate/board_options.h"
 #include "app/commands/command.h"
 #include "app/options/sheet_format_options.h"
+#include "base/atomic_file.h"
 #include "export/print_sheets/board_description.h"
 #include "export/print_sheets/marker_sheet.h"
 #include "export/print_sheets/sheet.h"
@@ -174,8 +175,8 @@ Result<void> RunBoard(const BoardSheetOptions& options) {
   if (description == fs::path(options.output)) {
     return InputError("--description", "names the same file as --output", "give it another name");
   }
-  PLEINAIR_RETURN_IF_ERROR(exports::WriteSheetFile(description, printed.description));
-  PLEINAIR_RETURN_IF_ERROR(exports::WriteSheetFile(options.output, content));
+  PLEINAIR_RETURN_IF_ERROR(WriteFileAtomically(description, printed.description));
+  PLEINAIR_RETURN_IF_ERROR(WriteFileAtomically(options.output, content));
   if (options.json) {
     nlohmann::ordered_json json{{"file", options.output},
                                 {"description", description.string()},

@@ -10,6 +10,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "app/options/output_options.h"
+
 namespace pleinair::app {
 namespace {
 
@@ -49,6 +51,15 @@ std::string OneLine(std::string text) {
 int Fail(const std::string& message, ExitCode code) {
   std::cerr << "pleinair: " << OneLine(message) << '\n';
   return code;
+}
+
+/// Ends parsing before the chosen subcommand runs.
+struct OutputRefused {
+  Error error;
+};
+
+int Fail(const Error& error) {
+  return Fail(error.Message(), error.kind == ErrorKind::kInput ? kExitInput : kExitSystem);
 }
 
 /// Standard output may be a file on a full disk: printed text counts only when it is flushed.
@@ -97,8 +108,13 @@ int RunCommandLine(int argc, const char* const* argv) {
     AddDevicesCommand(app, result);
     AddBenchCommand(app, result);
     AddDoctorCommand(app, result);
+    app.parse_complete_callback([&app] {
+      if (auto allowed = CheckOutputOptions(app); !allowed) throw OutputRefused{allowed.error()};
+    });
     try {
       app.parse(argc, argv);
+    } catch (const OutputRefused& refused) {
+      return Fail(refused.error);
     } catch (const CLI::Success& success) {  // --help, --version
       return FlushOutput(app.exit(success, std::cout, std::cerr));
     } catch (const CLI::ParseError& error) {
@@ -111,10 +127,7 @@ int RunCommandLine(int argc, const char* const* argv) {
       std::cerr << app.help();
       return kExitInput;
     }
-    if (!result.status) {
-      const Error& error = result.status.error();
-      return Fail(error.Message(), error.kind == ErrorKind::kInput ? kExitInput : kExitSystem);
-    }
+    if (!result.status) return Fail(result.status.error());
     return FlushOutput(kExitDone);
   } catch (const std::bad_alloc&) {
     return Fail("out of memory; use a smaller recording or model, or a machine with more",

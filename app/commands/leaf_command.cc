@@ -25,6 +25,7 @@
 #include "compositor/models/texture_decoder.h"
 #include "export/images/image_writer.h"
 #include "files/csv.h"
+#include "files/output_rule.h"
 #include "files/result_file.h"
 #include "scene/leaf_contents.h"
 
@@ -147,19 +148,11 @@ Result<void> CheckUseOfLeafOptions(const CLI::App& command, const LeafCommandOpt
                                        {"--water", single && !plate, "the model prospect-d"}});
 }
 
-Result<void> CheckIsNotInput(const std::filesystem::path& input,
-                             const std::filesystem::path& output) {
-  std::error_code error;
-  if (!std::filesystem::equivalent(input, output, error) || error) return {};
-  return InputError(output.string(), "is the input, and would be overwritten", "name another file");
-}
-
 Result<void> RunLeafTable(const LeafCommandOptions& options, NanometreRange nm) {
   PLEINAIR_ASSIGN_OR_RETURN(const std::string text, files::ReadTextFile(options.csv));
   PLEINAIR_ASSIGN_OR_RETURN(const std::vector<NamedLeaf> leaves,
                             ParseLeafTable(text, files::TextFileName(options.csv)));
   if (!options.spectra.empty()) {
-    PLEINAIR_RETURN_IF_ERROR(CheckIsNotInput(options.csv, options.spectra));
     PLEINAIR_RETURN_IF_ERROR(WriteLeafSpectra(leaves, options.spectra, nm.first, nm.last));
   }
   return WriteLeafColors(leaves, options.json);
@@ -240,7 +233,7 @@ Result<void> RunLeafMaps(const LeafMapsOptions& options) {
   }
   const fs::path folder(options.folder);
   for (const char* name : {"pigment.png", "gloss.png", "thickness.png"}) {
-    PLEINAIR_RETURN_IF_ERROR(CheckIsNotInput(options.structure, folder / name));
+    PLEINAIR_RETURN_IF_ERROR(files::CheckFreeName(folder / name));
   }
   PLEINAIR_RETURN_IF_ERROR(exports::WritePng(folder / "pigment.png", maps.pigment.view()));
   PLEINAIR_RETURN_IF_ERROR(exports::WritePng(folder / "gloss.png", RgbOfGrey(maps.gloss).view()));

@@ -108,7 +108,7 @@ Result<void> WriteBarePrint(const fs::path& file, int number, const MarkerOption
   Image<std::uint8_t> picture = exports::RasterizeMarker(tracker::SgMarkerPattern(number), pixels);
   PLEINAIR_ASSIGN_OR_RETURN(const std::string png,
                             exports::EncodeGrayPng(picture.view(), pixels / side_m));
-  PLEINAIR_RETURN_IF_ERROR(exports::WriteSheetFile(file, png));
+  PLEINAIR_RETURN_IF_ERROR(WriteFileAtomically(file, png));
   if (options.json) {
     nlohmann::json object = DescribeMarker(file, number, options.size_mm);
     object["pixels"] = pixels;
@@ -140,12 +140,12 @@ Result<void> WriteSheets(const std::vector<int>& numbers, exports::SheetFormat f
                             NameFiles(options.output, numbers, format));
   const bool one_file = numbers.size() > 1 && files[0] == files[1];
   if (one_file) {
-    PLEINAIR_RETURN_IF_ERROR(exports::WriteSheetFile(files[0], exports::WritePdf(sheets)));
+    PLEINAIR_RETURN_IF_ERROR(WriteFileAtomically(files[0], exports::WritePdf(sheets)));
   }
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     if (!one_file) {
       PLEINAIR_ASSIGN_OR_RETURN(const std::string content, exports::RenderSheet(sheets[i], format));
-      PLEINAIR_RETURN_IF_ERROR(exports::WriteSheetFile(files[i], content));
+      PLEINAIR_RETURN_IF_ERROR(WriteFileAtomically(files[i], content));
     }
     if (!options.json) continue;
     nlohmann::json object = DescribeSheet(files[i], numbers[i], options.size_mm, sheets[i]);

@@ -15,6 +15,7 @@
 #include "app/options/option_use.h"
 #include "compositor/models/model.h"
 #include "export/images/image_writer.h"
+#include "files/output_rule.h"
 #include "scene/length_units.h"
 
 namespace pleinair::app {
@@ -77,7 +78,9 @@ Result<fs::path> SheetOf(const fs::path& model, const ModelCommandOptions& optio
   if (error) {
     return SystemError(options.output, "cannot be made: " + error.message(), "name another folder");
   }
-  return fs::path(options.output) / SheetName(model);
+  fs::path sheet = fs::path(options.output) / SheetName(model);
+  PLEINAIR_RETURN_IF_ERROR(files::CheckFreeName(sheet));
+  return sheet;
 }
 
 Result<void> CheckOutput(const ModelCommandOptions& options) {

@@ -1,5 +1,4 @@
 #include <CLI/CLI.hpp>
-#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -44,10 +43,6 @@ Result<void> RunPath(const PathArguments& arguments) {
                             FormatOf(arguments.from, arguments.input));
   PLEINAIR_ASSIGN_OR_RETURN(const exports::TrajectoryFormat to,
                             FormatOf(arguments.to, arguments.output));
-  std::error_code error;
-  if (std::filesystem::equivalent(arguments.input, arguments.output, error)) {
-    return InputError(arguments.output, "is the input itself", "name another file to write");
-  }
   exports::TrajectoryReading reading;
   reading.frame_rate_hz = arguments.frame_rate_hz;
   if (!arguments.extrinsics.empty()) {

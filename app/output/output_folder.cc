@@ -1,6 +1,8 @@
 #include "app/output/output_folder.h"
 
+#include <fcntl.h>
 #include <signal.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -63,6 +65,11 @@ Result<OutputFolder> OutputFolder::Create(const fs::path& path) {
   if (!fs::is_directory(folder.path_, error)) {
     return InputError(path.string(), "is not a folder", "name another folder with -o");
   }
+  folder.lock_ = open(folder.path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (folder.lock_ >= 0 && flock(folder.lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    return InputError(path.string(), "another replay is writing into this folder",
+                      "wait until it has ended, or name another folder with -o");
+  }
   RemoveAbandonedStaging(folder.path_);
   const fs::path staging = folder.path_ / (std::string(kStagingPrefix) + std::to_string(getpid()));
   if (!fs::create_directory(staging, error)) {
@@ -75,12 +82,14 @@ Result<OutputFolder> OutputFolder::Create(const fs::path& path) {
 OutputFolder::OutputFolder(OutputFolder&& other) noexcept
     : path_(std::move(other.path_)),
       staging_(std::exchange(other.staging_, {})),
-      created_(std::exchange(other.created_, {})) {}
+      created_(std::exchange(other.created_, {})),
+      lock_(std::exchange(other.lock_, -1)) {}
 
 OutputFolder::~OutputFolder() {
   std::error_code ignored;
   if (!staging_.empty()) fs::remove_all(staging_, ignored);
   for (auto it = created_.rbegin(); it != created_.rend(); ++it) fs::remove(*it, ignored);
+  if (lock_ >= 0) close(lock_);
 }
 
 Result<void> OutputFolder::MakeFolder(const std::string& name) const {

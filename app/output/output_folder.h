@@ -11,12 +11,13 @@ namespace pleinair::app {
 /// A replay's output folder, written as a whole or not at all. Writers write into staging(), a
 /// hidden folder inside the target. Commit() moves everything to its place. Without Commit() the
 /// destructor removes the staging folder and every folder that Create() made. After a killed
-/// process, the next Create() in the same folder removes its staging folder.
+/// process, the next Create() in the same folder removes its staging folder. A lock on the folder
+/// keeps a second replay out while the first one lasts, so that outputs never mix.
 class OutputFolder {
  public:
   /// Creates `path` and its missing parents. Errors (input): no permission, not a folder, a
-  /// recording or its frames. Also an existing file with the name of a replay's output that no
-  /// earlier report.json lists. Errors (system): disk full.
+  /// recording or its frames; another replay is writing into it. Also an existing file with the
+  /// name of a replay's output that no earlier report.json lists. Errors (system): disk full.
   static Result<OutputFolder> Create(const std::filesystem::path& path);
 
   OutputFolder(OutputFolder&& other) noexcept;
@@ -45,6 +46,7 @@ class OutputFolder {
   std::filesystem::path path_;
   std::filesystem::path staging_;
   std::vector<std::filesystem::path> created_;  // Outermost first.
+  int lock_ = -1;                               // Open folder; -1 where locks are not supported.
 };
 
 }  // namespace pleinair::app

@@ -23,8 +23,10 @@ cv::Mat Wrap(ImageView<const std::uint8_t> rgb) {
 
 Result<void> WritePng(const std::filesystem::path& file, ImageView<const std::uint8_t> rgb) {
   CHECK_EQ(rgb.channels(), 3);
+  const bool device = IsDevice(file);
+  const std::filesystem::path temporary = device ? file : TemporarySibling(file);
   errno = 0;
-  std::FILE* out = std::fopen(file.c_str(), "wb");
+  std::FILE* out = std::fopen(temporary.c_str(), "wb");
   if (out == nullptr) return tl::make_unexpected(WriteError(file, errno));
   bool good = files::WritePngRows(rgb, {.fast = true}, out);
   int error_number = errno;
@@ -32,10 +34,9 @@ Result<void> WritePng(const std::filesystem::path& file, ImageView<const std::ui
     good = false;
     error_number = errno;
   }
-  if (good) return {};
+  if (good) return device ? Result<void>() : CommitFile(temporary, file);
   std::error_code ignored;
-  // Never remove a device or pipe at the path of the file.
-  if (std::filesystem::is_regular_file(file, ignored)) std::filesystem::remove(file, ignored);
+  if (!device) std::filesystem::remove(temporary, ignored);
   return tl::make_unexpected(WriteError(file, error_number != 0 ? error_number : EIO));
 }
 

@@ -1,11 +1,7 @@
 #include "export/print_sheets/sheet_file.h"
 
-#include <cerrno>
-#include <fstream>
 #include <optional>
-#include <system_error>
 
-#include "base/atomic_file.h"
 #include "export/print_sheets/sheet_raster.h"
 #include "export/print_sheets/vector_page.h"
 
@@ -73,21 +69,6 @@ Result<std::string> RenderSheet(const Sheet& sheet, SheetFormat format) {
       return RenderPng(sheet);
   }
   return std::string();
-}
-
-Result<void> WriteSheetFile(const std::filesystem::path& path, std::string_view content) {
-  std::error_code ignored;
-  const auto status = std::filesystem::status(path, ignored);
-  if (!std::filesystem::is_other(status) && !std::filesystem::is_character_file(status) &&
-      !std::filesystem::is_fifo(status)) {
-    return WriteFileAtomically(path, content);
-  }
-  errno = 0;
-  std::ofstream device(path, std::ios::binary);
-  device.write(content.data(), static_cast<std::streamsize>(content.size()));
-  device.close();
-  if (!device) return tl::make_unexpected(WriteError(path, errno != 0 ? errno : EIO));
-  return {};
 }
 
 }  // namespace pleinair::exports

@@ -27,8 +27,4 @@ Result<SheetFormat> ChooseFormat(const FormatFlags& flags, const std::filesystem
 /// memory.
 Result<std::string> RenderSheet(const Sheet& sheet, SheetFormat format);
 
-/// Writes a file under a temporary name and renames it. Writes directly to an existing device or
-/// pipe. Errors: as WriteError.
-Result<void> WriteSheetFile(const std::filesystem::path& path, std::string_view content);
-
 }  // namespace pleinair::exports

@@ -8,6 +8,7 @@
 #include "base/atomic_file.h"
 #include "export/trajectories/colmap_binary.h"
 #include "export/trajectories/colmap_text.h"
+#include "files/output_rule.h"
 #include "files/text_file.h"
 
 namespace pleinair::exports {
@@ -58,14 +59,20 @@ Result<void> WriteColmapFolder(const ColmapModel& model, ColmapForm form, const 
                       "belongs to a model in COLMAP's other form, which would contradict this one",
                       "name another folder");
   }
+  const ColmapFiles model_files = text ? ColmapText(model) : ColmapBinary(model);
+  const std::array<const std::string*, 3> contents = {&model_files.cameras, &model_files.points3d,
+                                                      &model_files.images};
+  const auto names = ColmapFileNames(form);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    PLEINAIR_RETURN_IF_ERROR(files::CheckFreeName(folder / names[i], *contents[i]));
+  }
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) return tl::make_unexpected(WriteError(folder, error.value()));
-  const ColmapFiles files = text ? ColmapText(model) : ColmapBinary(model);
-  const auto [cameras, points3d, images] = ColmapFileNames(form);
-  PLEINAIR_RETURN_IF_ERROR(WriteFileAtomically(folder / cameras, files.cameras));
-  PLEINAIR_RETURN_IF_ERROR(WriteFileAtomically(folder / points3d, files.points3d));
-  return WriteFileAtomically(folder / images, files.images);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    PLEINAIR_RETURN_IF_ERROR(WriteFileAtomically(folder / names[i], *contents[i]));
+  }
+  return {};
 }
 
 }  // namespace pleinair::exports

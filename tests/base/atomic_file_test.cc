@@ -54,6 +54,21 @@ TEST_F(AtomicFile, ReplacesAnOlderFile) {
   EXPECT_EQ(Content(folder_ / "out.json"), "new");
 }
 
+TEST_F(AtomicFile, WritesTheFileThatALinkNamesAndKeepsTheLink) {
+  std::filesystem::create_directory(folder_ / "far");
+  std::filesystem::create_symlink("far/target.json", folder_ / "link.json");
+  for (const char* content : {"through a link to nothing yet", "and to a file"}) {
+    ASSERT_TRUE(WriteFileAtomically(folder_ / "link.json", content));
+    EXPECT_TRUE(std::filesystem::is_symlink(folder_ / "link.json"));
+    EXPECT_EQ(Content(folder_ / "far/target.json"), content);
+  }
+}
+
+TEST_F(AtomicFile, NeverReplacesADevice) {
+  ASSERT_TRUE(WriteFileAtomically("/dev/null", "x"));
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+}
+
 TEST_F(AtomicFile, MissingFolderIsTheUsersError) {
   const Result<void> written = WriteFileAtomically(folder_ / "no" / "out.json", "x");
   ASSERT_FALSE(written);

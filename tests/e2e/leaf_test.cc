@@ -132,7 +132,7 @@ TEST(Leaf, NeverOverwritesItsInput) {
   cv::imwrite(folder / "pigment.png", structure);
   const std::string before = ReadFile(folder / "pigment.png");
   ExpectRefused(RunPleinair({"leaf", "maps", folder / "pigment.png", "-o", folder / "."}),
-                "would be overwritten");
+                "will not be overwritten");
   EXPECT_EQ(ReadFile(folder / "pigment.png"), before);
   WriteFile(folder / "a.csv", "name,chlorophyll_ug_cm2\na,40\n");
   ExpectRefused(RunPleinair({"leaf", "--csv", folder / "a.csv", "--spectra", folder / "a.csv"}),

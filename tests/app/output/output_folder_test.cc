@@ -6,6 +6,7 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -76,6 +77,19 @@ TEST_F(OutputFolderTest, CommitMovesFilesAndFoldersToTheirPlace) {
   EXPECT_TRUE(fs::exists(root_ / "out/poses/tag36h11_0.tum"));
   EXPECT_TRUE(fs::exists(root_ / "out/report.json"));
   EXPECT_EQ(std::distance(fs::directory_iterator(root_ / "out"), {}), 2);
+}
+
+TEST_F(OutputFolderTest, IsForOneReplayAtATime) {
+  std::optional<OutputFolder> first = *OutputFolder::Create(root_ / "out");
+  const auto second = OutputFolder::Create(root_ / "out");
+  ASSERT_FALSE(second);
+  EXPECT_EQ(second.error().what, "another replay is writing into this folder");
+  Write(first->staging() / "report.json");
+  ASSERT_TRUE(first->Commit());
+  first.reset();
+  EXPECT_TRUE(fs::exists(root_ / "out/report.json"));
+  fs::remove(root_ / "out/report.json");
+  EXPECT_TRUE(OutputFolder::Create(root_ / "out"));
 }
 
 TEST_F(OutputFolderTest, ErrorsNameTheTargetNotTheHiddenFile) {
