@@ -144,6 +144,7 @@ Result<std::unique_ptr<PictureStream>> OpenCamera(const devices::CameraUri& uri,
 Result<std::unique_ptr<PictureStream>> OpenFilm(const fs::path& file) {
   if (devices::IsFramePack(file)) {
     PLEINAIR_ASSIGN_OR_RETURN(devices::OpenedFramePack pack, devices::OpenFramePack(file, {}));
+    for (const std::string& lost : pack.damage) std::cerr << "warning: " << lost << '\n';
     return std::make_unique<Film>(file.string(), std::move(pack.frames), std::nullopt);
   }
   PLEINAIR_ASSIGN_OR_RETURN(devices::OpenedVideo video, devices::OpenVideo(file, {}));

@@ -74,6 +74,7 @@ Result<SiteFacts> LookAtSite(const CheckRequest& request) {
   options.light.film_response = devices::ResponseOf(recording.curve);
   PLEINAIR_ASSIGN_OR_RETURN(const auto pipeline, session::Pipeline::Create(camera, scene, options));
   SiteFacts facts;
+  facts.damage = recording.damage;
   facts.has_objects = !scene.objects.empty();
   facts.lens_guess = LensGuess(request);
   facts.sun_elevation_deg =

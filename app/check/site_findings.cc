@@ -245,7 +245,11 @@ const char* VerdictText(SiteVerdict verdict) {
 }
 
 std::vector<SiteFinding> JudgeSite(const SiteFacts& facts) {
-  std::vector<SiteFinding> findings{MarkerFinding(facts)};
+  std::vector<SiteFinding> findings;
+  for (const std::string& lost : facts.damage) {
+    findings.push_back({"frames", Verdict::kDoubtful, lost, ""});
+  }
+  findings.push_back(MarkerFinding(facts));
   if (!facts.frames.empty()) {
     findings.push_back(SizeFinding(facts));
     findings.push_back(ViewFinding(facts));

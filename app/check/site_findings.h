@@ -32,10 +32,12 @@ struct SiteFacts {
   std::string lens_guess;          ///< Not empty: the lens is assumed, and from what.
   std::optional<compositor::MeasuredLight> light;  ///< Nothing: no objects, or no phantoms.
   bool has_objects = false;
+  std::vector<std::string> damage;     ///< What of the recording's frames is lost.
   std::vector<std::string> placement;  ///< PlacementWarnings(), one sentence each.
 };
 
-/// Judges: marker, size, view, blur, exposure, lens, sun, heading, object; in this order.
+/// Judges: frames, if some are lost, marker, size, view, blur, exposure, lens, sun, heading,
+/// object; in this order.
 std::vector<SiteFinding> JudgeSite(const SiteFacts& facts);
 
 }  // namespace pleinair::app

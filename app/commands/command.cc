@@ -33,6 +33,7 @@ constexpr const char* kExamples =
     "  pleinair sun --at 50.0875,14.4213 --time 2025-09-14T11:05:00Z\n"
     "  pleinair sky --at 50.0875,14.4213 --time 2025-09-14T17:00:00Z -o dome.png\n"
     "  pleinair live --camera file:recordings/courtyard_midday --headless\n"
+    "  pleinair recover walk -o walk_clean\n"
     "  pleinair accuracy --quick -o out/quick\n"
     "  pleinair devices\n"
     "  pleinair doctor\n"
@@ -68,9 +69,10 @@ int FlushOutput(int code) {
   std::cout.flush();
   const bool failed = !std::cout || std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
   if (!failed || code != kExitDone) return code;
-  return Fail(std::string("standard output: cannot write: ") +
-                  std::strerror(errno != 0 ? errno : EIO) +
-                  "; free some space or send the output elsewhere",
+  const int cause = errno != 0 ? errno : EIO;
+  return Fail(std::string("standard output: cannot write: ") + std::strerror(cause) +
+                  (cause == ENOSPC ? "; free some space or send the output elsewhere"
+                                   : "; send the output elsewhere"),
               kExitSystem);
 }
 
@@ -107,6 +109,7 @@ int RunCommandLine(int argc, const char* const* argv) {
     AddReportCommand(app, result);
     AddDevicesCommand(app, result);
     AddBenchCommand(app, result);
+    AddRecoverCommand(app, result);
     AddDoctorCommand(app, result);
     app.parse_complete_callback([&app] {
       if (auto allowed = CheckOutputOptions(app); !allowed) throw OutputRefused{allowed.error()};
@@ -130,8 +133,7 @@ int RunCommandLine(int argc, const char* const* argv) {
     if (!result.status) return Fail(result.status.error());
     return FlushOutput(kExitDone);
   } catch (const std::bad_alloc&) {
-    return Fail("out of memory; use a smaller recording or model, or a machine with more",
-                kExitSystem);
+    return Fail("out of memory; use a smaller input, or a machine with more memory", kExitSystem);
   } catch (const std::exception& error) {
     return Fail(std::string("unexpected failure: ") + error.what() + "; please report it",
                 kExitSystem);

@@ -41,6 +41,7 @@ void AddAccuracyCommand(CLI::App& app, CommandResult& result);
 void AddReportCommand(CLI::App& app, CommandResult& result);
 void AddDevicesCommand(CLI::App& app, CommandResult& result);
 void AddBenchCommand(CLI::App& app, CommandResult& result);
+void AddRecoverCommand(CLI::App& app, CommandResult& result);
 void AddDoctorCommand(CLI::App& app, CommandResult& result);
 
 /// Parses the command line, runs the subcommand and returns the exit code. An error is one line on

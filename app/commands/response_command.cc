@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/command.h"
+#include "app/options/model_options.h"
 #include "app/options/option_use.h"
 #include "app/terminal/pass_bar.h"
 #include "base/atomic_file.h"
@@ -82,6 +83,7 @@ Result<void> RunResponse(const ResponseArguments& arguments) {
     return devices::OpenRecording(arguments.recording, {arguments.calibration, arguments.scene});
   };
   PLEINAIR_ASSIGN_OR_RETURN(devices::Recording recording, open());
+  for (const std::string& lost : recording.damage) std::cerr << "warning: " << lost << '\n';
   if (!recording.scene) {
     return InputError(name, "has no scene",
                       "write one (docs/guide/reference/recordings.md) and give it with --scene");
@@ -123,6 +125,7 @@ void AddResponseCommand(CLI::App& app, CommandResult& result) {
   command->add_option("--calibration", arguments->calibration,
                       "Camera calibration, if not in the recording");
   command->add_option("-o,--output", arguments->output, "File to write, for --response");
+  AddModelFileOptions(*command);
   command->add_flag("--json", arguments->json, "Print the result as one JSON object");
   RefuseEmptyValues(*command);
   command->callback([arguments, &result] { result.status = RunResponse(*arguments); });

@@ -71,6 +71,8 @@ bool HoldsPictures(const fs::path& folder) {
 EarlierReplay EarlierReplay::In(const fs::path& folder) {
   EarlierReplay earlier;
   earlier.folder_ = folder;
+  std::error_code error;
+  if (!fs::is_regular_file(folder / "report.json", error)) return earlier;
   std::ifstream in(folder / "report.json", std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(in), {}};
   const Json report = Json::parse(text, nullptr, false);

@@ -86,10 +86,16 @@ OutputFolder::OutputFolder(OutputFolder&& other) noexcept
       lock_(std::exchange(other.lock_, -1)) {}
 
 OutputFolder::~OutputFolder() {
-  std::error_code ignored;
-  if (!staging_.empty()) fs::remove_all(staging_, ignored);
-  for (auto it = created_.rbegin(); it != created_.rend(); ++it) fs::remove(*it, ignored);
+  CleanUp()();
   if (lock_ >= 0) close(lock_);
+}
+
+std::function<void()> OutputFolder::CleanUp() const {
+  return [staging = staging_, created = created_] {
+    std::error_code ignored;
+    if (!staging.empty()) fs::remove_all(staging, ignored);
+    for (auto it = created.rbegin(); it != created.rend(); ++it) fs::remove(*it, ignored);
+  };
 }
 
 Result<void> OutputFolder::MakeFolder(const std::string& name) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,10 @@ class OutputFolder {
 
   /// Replaces the path of a staged file in an error by its target path.
   Error InTermsOfTarget(Error error) const;
+
+  /// What the destructor does without Commit(), for a program that must end at once. The result
+  /// may outlive this object.
+  std::function<void()> CleanUp() const;
 
   /// Replaces the files in an earlier replay's report.json by the staged files. Other files stay;
   /// one with an output's name is an error (input). After an error the moved files are removed

@@ -21,6 +21,7 @@
 #include "app/replay/report/report_html.h"
 #include "app/replay/report/report_json.h"
 #include "app/terminal/interrupt.h"
+#include "app/terminal/interrupt_deadline.h"
 #include "base/atomic_file.h"
 #include "base/scaled_camera.h"
 
@@ -91,6 +92,7 @@ Result<PreparedReplay> Prepare(ReplayState& state) {
           camera, *recording.scene,
           {.composer = options.composer, .light = std::move(light), .image_size = options.size}));
   Describe(recording, state, &state.report);
+  for (const std::string& lost : recording.damage) state.report.warnings.push_back(lost);
   if (!recording.camera_note.empty()) state.report.warnings.push_back(recording.camera_note);
   return PreparedReplay{std::move(recording), std::move(trajectory)};
 }
@@ -151,7 +153,7 @@ Result<void> WriteReports(ReplayState& state) {
   return WriteFileAtomically(state.folder.staging() / "report.html", ReportHtml(report));
 }
 
-/// Runs all steps, from opening the recording to the finished folder.
+/// Runs all steps, from opening the recording to the finished files.
 Result<void> Run(ReplayState& state) {
   PLEINAIR_ASSIGN_OR_RETURN(PreparedReplay prepared, Prepare(state));
   const std::string& name = state.report.call.recording;
@@ -169,8 +171,7 @@ Result<void> Run(ReplayState& state) {
   PLEINAIR_RETURN_IF_ERROR(ComposeFrames(state));
   PLEINAIR_RETURN_IF_ERROR(DrawDay(state));
   PLEINAIR_RETURN_IF_ERROR(WriteReports(state));
-  PLEINAIR_RETURN_IF_ERROR(CheckInterrupt(name));
-  return state.folder.Commit();
+  return CheckInterrupt(name);
 }
 
 /// The output must not replace the recording.
@@ -195,6 +196,8 @@ Result<ReplayReport> Replay(const ReplayOptions& options) {
   PLEINAIR_RETURN_IF_ERROR(CheckLightCache(options.light.cache));
   const InterruptGuard guard;
   PLEINAIR_ASSIGN_OR_RETURN(OutputFolder folder, OutputFolder::Create(options.output));
+  std::optional<InterruptDeadline> deadline(std::in_place, options.recording.string(),
+                                            folder.CleanUp());
   PLEINAIR_ASSIGN_OR_RETURN(const auto calibration, CalibrateFromFilm(options, folder));
   ReplayOptions calibrated = options;
   if (calibration) calibrated.calibration = calibration->file;
@@ -203,9 +206,10 @@ Result<ReplayReport> Replay(const ReplayOptions& options) {
     state.report.warnings.push_back(calibration->sentence);
     state.report.files.outputs.emplace_back(calibration->file.filename().string());
   }
-  if (const auto done = Run(state); !done) {
-    return tl::make_unexpected(state.folder.InTermsOfTarget(done.error()));
-  }
+  Result<void> done = Run(state);
+  deadline.reset();  // The files appear together: all or none.
+  if (done) done = state.folder.Commit();
+  if (!done) return tl::make_unexpected(state.folder.InTermsOfTarget(done.error()));
   return std::move(state.report);
 }
 

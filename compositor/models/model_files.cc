@@ -1,5 +1,7 @@
 #include "compositor/models/model_files.h"
 
+#include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -8,6 +10,11 @@
 #include "compositor/models/model_limits.h"
 
 namespace pleinair::compositor {
+namespace {
+
+std::atomic<bool> files_outside_allowed{false};
+
+}  // namespace
 
 Result<std::string> ReadWholeFile(const std::filesystem::path& file) {
   std::error_code error;
@@ -32,6 +39,28 @@ Result<std::string> ReadWholeFile(const std::filesystem::path& file) {
     return InputError(file.string(), "cannot be read: " + cause, "check its permissions");
   }
   return content;
+}
+
+void AllowFilesOutsideModels(bool allowed) { files_outside_allowed = allowed; }
+
+Result<void> CheckBelongsToModel(const std::filesystem::path& file,
+                                 const std::filesystem::path& folder) {
+  namespace fs = std::filesystem;
+  const std::string name = file.string();
+  if (name.find('\0') != std::string::npos) {
+    return InputError(name.substr(0, name.find('\0')), "is a file name with a NUL inside",
+                      "repair the model or export it again");
+  }
+  if (files_outside_allowed) return {};
+  std::error_code error;
+  const fs::path root = fs::weakly_canonical(folder.empty() ? fs::path(".") : folder, error);
+  const fs::path real = fs::weakly_canonical(file, error);
+  if (!error &&
+      std::mismatch(root.begin(), root.end(), real.begin(), real.end()).first == root.end()) {
+    return {};
+  }
+  return InputError(name, "lies outside the folder of the model that names it",
+                    "put it beside the model, or trust the model with --allow-outside");
 }
 
 }  // namespace pleinair::compositor

@@ -2,8 +2,11 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "base/error.h"
 #include "devices/frame_source.h"
@@ -26,6 +29,9 @@ class FramePackWriter {
   /// previous frame and accepts no more.
   Result<void> Add(const Frame& frame);
 
+  /// Appends a frame's record as another pack has it. Errors: as Add().
+  Result<void> AddRecord(std::string_view record);
+
   /// Flushes to disk: frames added before survive a power cut.
   Result<void> Sync();
 
@@ -44,20 +50,31 @@ class FramePackWriter {
   std::string header_;
 };
 
-/// True if a file has the header of a frame pack.
+/// True if a file has the header of a frame pack, or its extension, .pack.
 bool IsFramePack(const std::filesystem::path& file);
 
 struct OpenedFramePack {
   std::unique_ptr<FrameSource> frames;
   double frame_rate_hz = 0.0;      ///< Computed from the time stamps; 0 with fewer than two frames.
-  std::int64_t dropped_bytes = 0;  ///< Bytes after the last complete frame: the recording was
-                                   ///< truncated there.
+  std::int64_t dropped_bytes = 0;  ///< Bytes of the file that belong to no whole frame.
+  std::vector<std::string> damage;  ///< What is lost, as sentences; empty for a whole pack.
 };
 
-/// Opens the complete frames of a pack, with the recorded time stamps, exposure and losses. Time
-/// stamps count from the first frame. `size`: required size of every frame; 0x0: the size of the
-/// first. Errors: not a frame pack, no complete frame, another size; from Next(): a damaged frame
-/// before the end.
+/// Opens the whole frames of a pack, with the recorded time stamps, exposure and losses. A frame is
+/// whole if its checksum holds. Reads the file once: behind damage it searches for the next whole
+/// frame. Time stamps count from the first whole frame. `size`: required size of every frame; 0x0:
+/// the size of the first. Errors: not a frame pack, no whole frame, another size.
 Result<OpenedFramePack> OpenFramePack(const std::filesystem::path& file, ImageSize size);
+
+struct RecoveredFramePack {
+  std::int64_t frames = 0;
+  std::vector<std::string> damage;
+};
+
+/// Copies the whole frames of a pack to a new pack, byte for byte. Calls `check` between frames and
+/// stops with its error. Errors: as OpenFramePack() and FramePackWriter.
+Result<RecoveredFramePack> RecoverFramePack(const std::filesystem::path& from,
+                                            const std::filesystem::path& to,
+                                            const std::function<Result<void>()>& check);
 
 }  // namespace pleinair::devices

@@ -75,6 +75,11 @@ std::optional<FrameMetadata> ParseFrameMetadata(std::string_view text) {
     Frame& frame = facts.frame;
     frame.index = json.at("index");
     frame.timestamp_ns = json.at("timestamp_ns");
+    // Differences of two stamps must not overflow.
+    constexpr std::int64_t kMaxStamp_ns = std::int64_t{1} << 62;
+    if (frame.timestamp_ns < -kMaxStamp_ns || frame.timestamp_ns > kMaxStamp_ns) {
+      return std::nullopt;
+    }
     const std::string meaning = json.at("stamp");
     for (int i = 0; i < 4; ++i) {
       if (kMeanings[i] == meaning) frame.stamp_meaning = static_cast<StampMeaning>(i);

@@ -99,6 +99,15 @@ Result<void> FramePackWriter::Add(const Frame& frame) {
   return {};
 }
 
+Result<void> FramePackWriter::AddRecord(std::string_view record) {
+  if (failed_) return SystemError(file_.string(), "recording has ended before");
+  const int failed = WriteAll(fd_, record.data(), record.size());
+  if (failed != 0) return Fail(failed);
+  size_ += static_cast<std::int64_t>(record.size());
+  ++frames_;
+  return {};
+}
+
 Result<void> FramePackWriter::Sync() {
   if (fdatasync(fd_) != 0) return Fail(errno);
   return {};

@@ -43,9 +43,15 @@ struct Description {
   std::string bytes;
 };
 
-Result<std::optional<Description>> ReadIfThere(const fs::path& file) {
+/// True if a folder has an entry of a name, even a folder or a link to nothing: those are errors,
+/// and do not let another file count.
+bool IsNamed(const fs::path& path) {
   std::error_code error;
-  if (!fs::exists(file, error)) return std::nullopt;
+  return fs::exists(fs::symlink_status(path, error));
+}
+
+Result<std::optional<Description>> ReadIfThere(const fs::path& file) {
+  if (!IsNamed(file)) return std::nullopt;
   PLEINAIR_ASSIGN_OR_RETURN(std::string bytes,
                             files::ReadWholeFile(file, files::kMaxDescriptionBytes));
   return Description{file, std::move(bytes)};
@@ -96,7 +102,7 @@ Result<std::optional<scene::SceneDescription>> SceneOf(const OwnFolder& own,
   }
   const scene::SceneFacts known = scene::WithFallback(scene, recorded);
   if (options.scene) return SceneFromFile(*options.scene, known);
-  if (IsFile(own.folder / "scene.toml")) return SceneFromFile(own.folder / "scene.toml", known);
+  if (IsNamed(own.folder / "scene.toml")) return SceneFromFile(own.folder / "scene.toml", known);
   if (own.scene_json) return CompleteAndCheck(known, own.scene_json->file);
   if (recorded.LacksPlaceTimeAndMarker()) return std::nullopt;
   AddModelsByCustom(own.folder, &recorded);
@@ -160,7 +166,7 @@ Result<Recording> OpenOwnFolder(const fs::path& folder, const RecordingOptions& 
                                             // an output video.
     const double stated_hz = manifest.frame_rate_hz.value_or(kUsualRate_hz);
     recording.frame_rate_hz = pack.frame_rate_hz > 0.0 ? pack.frame_rate_hz : stated_hz;
-    recording.dropped_bytes = pack.dropped_bytes;
+    recording.damage = std::move(pack.damage);
     recording.frames = std::move(pack.frames);
     return recording;
   }
@@ -209,7 +215,7 @@ Result<std::optional<scene::SceneDescription>> FindSceneNextTo(const fs::path& f
                                                                const RecordingOptions& options) {
   if (options.scene) return SceneFromFile(*options.scene, {});
   for (const char* name : {"scene.toml", "scene.json"}) {
-    if (IsFile(folder / name)) return SceneFromFile(folder / name, {});
+    if (IsNamed(folder / name)) return SceneFromFile(folder / name, {});
   }
   return std::nullopt;
 }
@@ -302,7 +308,7 @@ Result<Recording> OpenRecording(const fs::path& path, const RecordingOptions& op
   if (!IsFolder(path)) {
     return InputError(path.string(), "there is no such recording", "check the name and the folder");
   }
-  if (IsFile(path / "recording.json") || IsFile(path / "scene.json")) {
+  if (IsNamed(path / "recording.json") || IsNamed(path / "scene.json")) {
     return OpenOwnFolder(path, options);
   }
   for (const fs::path& camera : {path / "mav0" / "cam0", path / "cam0", path}) {

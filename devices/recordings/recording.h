@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/camera_model.h"
 #include "base/error.h"
@@ -38,9 +39,7 @@ struct Recording {
   bool is_photo = false;               ///< A single photograph.
   FilmCurve curve = FilmCurve::kSrgb;  ///< Of the frames, by a film's tags.
   std::optional<RecordedSound> sound;  ///< Of films that keep their own time stamps.
-  /// Bytes after the last complete frame of a live recording: it was truncated there, for example
-  /// by a power cut.
-  std::int64_t dropped_bytes = 0;
+  std::vector<std::string> damage;     ///< What of the frames is lost, as sentences.
   std::unique_ptr<FrameSource> frames;
 };
 
@@ -65,6 +64,7 @@ struct Recording {
 ///   calibration's.
 /// - An MP4, MOV or AVI file is truncated.
 ///
+/// A live recording's frames are those of its pack that are whole; `damage` says what is lost.
 /// Next() reports damage inside a video, and truncation of other containers.
 Result<Recording> OpenRecording(const std::filesystem::path& path,
                                 const RecordingOptions& options = {});

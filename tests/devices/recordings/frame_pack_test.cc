@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -137,20 +138,116 @@ TEST(FramePack, WhoseLastBytesNeverReachedTheDiskOpensUpToTheLastWholeFrame) {
   }
 }
 
-TEST(FramePack, DamagedInTheMiddleIsToldAndNotPassedOver) {
+/// The numbers of the frames that a damaged pack still gives, each checked against the original.
+/// Empty where it holds no whole frame.
+std::vector<int> FramesLeftIn(const std::filesystem::path& file, bool* says_loss) {
+  const auto opened = OpenFramePack(file, kSize);
+  if (!opened) {
+    EXPECT_THAT(opened.error().what, HasSubstr("holds no whole frame"));
+    *says_loss = true;
+    return {};
+  }
+  *says_loss = !opened->damage.empty();
+  EXPECT_EQ(*says_loss, opened->dropped_bytes > 0);
+  std::vector<int> left;
+  std::int64_t first = -1;
+  while (true) {
+    const auto frame = opened->frames->Next();
+    EXPECT_TRUE(frame);
+    if (!frame || !*frame) return left;
+    const auto number = static_cast<int>(*(*frame)->device_timestamp_ns - 99);
+    if (first < 0) first = number;
+    EXPECT_EQ((*frame)->index, static_cast<std::int64_t>(left.size()));
+    EXPECT_EQ((*frame)->timestamp_ns, (number - first) * 40'000'000LL);
+    const Frame whole = MakeFrame(number);
+    EXPECT_TRUE(
+        std::equal(whole.rgb.data(), whole.rgb.data() + whole.rgb.size(), (*frame)->rgb.data()));
+    left.push_back(number);
+  }
+}
+
+std::vector<std::size_t> FrameEnds(int frames) {
+  std::vector<std::size_t> ends;
+  for (int i = 0; i <= frames; ++i) {
+    const tests::TemporaryFolder part;
+    ends.push_back(Bytes(Record(part, i)).size());
+  }
+  return ends;
+}
+
+TEST(FramePack, LosesOneFrameByAFlippedBitAndSaysSo) {
+  constexpr int kFrames = 5;
+  const tests::TemporaryFolder folder;
+  const std::string whole = Bytes(Record(folder, kFrames));
+  const std::vector<std::size_t> ends = FrameEnds(kFrames);
+  for (std::size_t at = 16; at < whole.size(); at += at < ends[1] + 24 ? 1 : 11) {
+    std::string bytes = whole;
+    bytes[at] = static_cast<char>(bytes[at] ^ (1 << at % 8));
+    bool says_loss = false;
+    const std::vector<int> left = FramesLeftIn(folder.Write("flipped.pack", bytes), &says_loss);
+    const auto hit =
+        static_cast<int>(std::upper_bound(ends.begin(), ends.end(), at) - ends.begin()) - 1;
+    std::vector<int> expected = {0, 1, 2, 3, 4};
+    // Four bytes of each header are unused.
+    const std::size_t in_frame = at - ends[static_cast<std::size_t>(hit)];
+    const bool unused = in_frame >= 20 && in_frame < 24;
+    if (!unused) expected.erase(expected.begin() + hit);
+    ASSERT_EQ(left, expected) << "byte " << at;
+    ASSERT_EQ(says_loss, !unused) << "byte " << at;
+  }
+}
+
+TEST(FramePack, LosesOnlyTheFramesThatAMissingPieceTouches) {
+  constexpr int kFrames = 5;
+  const tests::TemporaryFolder folder;
+  const std::string whole = Bytes(Record(folder, kFrames));
+  const std::vector<std::size_t> ends = FrameEnds(kFrames);
+  for (const std::size_t length : {1, 100, 400, 900}) {
+    for (std::size_t at = 16; at + length < whole.size(); at += 37) {
+      std::string bytes = whole;
+      bytes.erase(at, length);
+      bool says_loss = false;
+      const std::vector<int> left = FramesLeftIn(folder.Write("cut.pack", bytes), &says_loss);
+      std::vector<int> expected;
+      for (std::size_t i = 0; i < kFrames; ++i) {
+        if (ends[i + 1] <= at || ends[i] >= at + length) expected.push_back(static_cast<int>(i));
+      }
+      ASSERT_EQ(left, expected) << length << " bytes at " << at;
+      const bool whole_frames_only = std::count(ends.begin(), ends.end(), at) > 0 &&
+                                     std::count(ends.begin(), ends.end(), at + length) > 0;
+      ASSERT_EQ(says_loss, !whole_frames_only) << length << " bytes at " << at;
+    }
+  }
+}
+
+TEST(FramePack, WithADamagedBeginningIsStillAPack) {
   const tests::TemporaryFolder folder;
   std::string bytes = Bytes(Record(folder, 3));
-  const std::size_t one = [] {
-    const tests::TemporaryFolder part;
-    return Bytes(Record(part, 1)).size();
-  }();
-  bytes[one + 200] = static_cast<char>(bytes[one + 200] ^ 1);
-  const auto opened = OpenFramePack(folder.Write("damaged.pack", bytes), kSize);
+  bytes[3] = 'X';
+  bool says_loss = false;
+  EXPECT_EQ(FramesLeftIn(folder.Write("damaged.pack", bytes), &says_loss),
+            (std::vector<int>{0, 1, 2}));
+}
+
+TEST(FramePack, NamesTheDamageAndRecoversTheWholeFrames) {
+  const tests::TemporaryFolder folder;
+  std::string bytes = Bytes(Record(folder, 4));
+  const std::vector<std::size_t> ends = FrameEnds(4);
+  bytes[ends[1] + 6] = static_cast<char>(bytes[ends[1] + 6] ^ 1);
+  const auto damaged = folder.Write("damaged.pack", bytes);
+  const auto opened = OpenFramePack(damaged, kSize);
   ASSERT_TRUE(opened);
-  ASSERT_TRUE(opened->frames->Next());
-  const auto second = opened->frames->Next();
-  ASSERT_FALSE(second);
-  EXPECT_THAT(second.error().Message(), HasSubstr("frame 1: is damaged"));
+  ASSERT_EQ(opened->damage.size(), 1);
+  EXPECT_THAT(opened->damage[0], HasSubstr("before frame 1 are damaged: no whole frame between "
+                                           "0.00 s and 0.08 s"));
+  const auto go_on = [] { return Result<void>(); };
+  const auto recovered = RecoverFramePack(damaged, folder / "clean.pack", go_on);
+  ASSERT_TRUE(recovered);
+  EXPECT_EQ(recovered->frames, 3);
+  EXPECT_EQ(recovered->damage, opened->damage);
+  std::string kept = bytes;
+  kept.erase(ends[1], ends[2] - ends[1]);
+  EXPECT_EQ(Bytes(folder / "clean.pack"), kept);
 }
 
 TEST(FramePack, OnAFullDiskEndsWithTheFrameBeforeAndSaysSo) {
