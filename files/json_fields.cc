@@ -97,7 +97,10 @@ Result<std::optional<std::string>> JsonFields::Text(const char* key) const {
   const Json* value = Find(key);
   if (value == nullptr) return std::nullopt;
   if (!value->is_string()) return Fail(key, "is not a text");
-  return value->get<std::string>();
+  auto text = value->get<std::string>();
+  // The operating system would cut a file's name there.
+  if (text.find('\0') != std::string::npos) return Fail(key, "holds a NUL character");
+  return text;
 }
 
 Result<std::optional<std::vector<double>>> JsonFields::Numbers(const char* key) const {

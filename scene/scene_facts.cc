@@ -1,6 +1,8 @@
 #include "scene/scene_facts.h"
 
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <set>
 #include <system_error>
 #include <utility>
@@ -18,6 +20,42 @@ void Fill(std::optional<T>& fact, const std::optional<T>& fallback) {
 
 bool Within(double value, double low, double high) {
   return std::isfinite(value) && value >= low && value <= high;
+}
+
+/// "95", "0.1": at most six digits.
+std::string Short(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%g", value);
+  return text.data();
+}
+
+/// Range of a value of a scene, in any of its formats.
+struct FactRange {
+  const char* name;
+  double min, max;
+  const char* meaning;
+};
+constexpr FactRange kLatitude{"latitude_deg", -90.0, 90.0, "degrees, north is positive"};
+constexpr FactRange kLongitude{"longitude_deg", -180.0, 180.0, "degrees, east is positive"};
+constexpr FactRange kHeight{"height_m", -1000.0, 20000.0, "metres above sea level"};
+constexpr FactRange kHeading{"marker.heading_deg", -360.0, 360.0,
+                             "degrees clockwise from true north"};
+constexpr FactRange kMagneticHeading{"marker.heading_magnetic_deg", -360.0, 360.0,
+                                     "degrees clockwise from magnetic north"};
+// From a pinhead to a sports field.
+constexpr FactRange kSize{"marker.size_m", 1e-4, 1e3, "the edge of the outer black square, metres"};
+constexpr FactRange kId{"marker.id", 0.0, 1e9, "marker numbers count from 0"};
+constexpr FactRange kTurbidity{"turbidity", 1.0, 64.0,
+                               "2 is a clear sky, 3 an ordinary one, 6 haze"};
+
+template <typename T>
+Result<void> CheckFact(const std::optional<T>& value, const FactRange& range,
+                       const std::string& file) {
+  if (!value || Within(static_cast<double>(*value), range.min, range.max)) return {};
+  return InputError(file,
+                    std::string(range.name) + " is " + Short(static_cast<double>(*value)) +
+                        ", outside " + Short(range.min) + " to " + Short(range.max),
+                    range.meaning);
 }
 
 /// A target file defines number, kind and size, so the scene must not repeat them.
@@ -51,10 +89,6 @@ Result<Radians> Heading(const MarkerFacts& facts, const PlaceTime& place_time,
                       "north; or marker.heading_magnetic_deg, as a compass shows it");
   }
   const double heading_deg = facts.heading_deg ? *facts.heading_deg : *facts.heading_magnetic_deg;
-  if (!Within(heading_deg, -360.0, 360.0)) {
-    return InputError(name, "has a marker heading outside -360 to 360 degrees",
-                      "marker.heading_deg is clockwise from true north");
-  }
   if (facts.heading_deg) return FromDegrees(heading_deg);
   const Result<Radians> declination = MagneticDeclination(
       place_time.latitude_deg, place_time.longitude_deg, place_time.height_m, place_time.start);
@@ -73,18 +107,10 @@ Result<MarkerDescription> CompleteMarker(const MarkerFacts& facts, const PlaceTi
     return InputError(name, "does not say how large the marker is",
                       "add marker.size_mm: the edge of the outer black square");
   }
-  // From a pinhead to a sports field.
-  if (facts.size_m && !Within(*facts.size_m, 1e-4, 1e3)) {
-    return InputError(name, "has a marker whose size is not greater than zero or not finite",
-                      "marker.size_mm is the edge of the outer black square, 0.1 to 1000000");
-  }
   PLEINAIR_ASSIGN_OR_RETURN(marker.heading, Heading(facts, place_time, name));
   marker.family = facts.family;
   marker.id = facts.id;
   marker.version = facts.version;
-  if (marker.id && *marker.id < 0) {
-    return InputError(name, "has a marker id below zero", "ids count from 0");
-  }
   marker.size_m = facts.size_m.value_or(0.0);
   if (facts.target) marker.target = *facts.target;
   marker.upright = facts.upright.value_or(false);
@@ -114,17 +140,7 @@ Result<PlaceTime> CompletePlaceTime(const PlaceTimeFacts& facts, const std::stri
     return InputError(name, "does not say when the recording was made",
                       "add its time as RFC 3339, for example 2025-09-14T11:05:00Z");
   }
-  if (!Within(*facts.latitude_deg, -90.0, 90.0)) {
-    return InputError(name, "has a latitude outside -90 to 90 degrees", "north is positive");
-  }
-  if (!Within(*facts.longitude_deg, -180.0, 180.0)) {
-    return InputError(name, "has a longitude outside -180 to 180 degrees", "east is positive");
-  }
   const double height_m = facts.height_m.value_or(0.0);
-  if (!Within(height_m, -1000.0, 20000.0)) {
-    return InputError(name, "has a height outside -1000 to 20000 metres",
-                      "height_m is metres above sea level");
-  }
   return PlaceTime{*facts.latitude_deg, *facts.longitude_deg, height_m, *facts.start};
 }
 
@@ -198,7 +214,8 @@ Result<void> CheckPlacement(const ModelReference& model, const std::string& name
   }
   if (file.empty()) return InputError(name, "has a model without a file name", "add its file");
   if (!Within(model.scale, 1e-9, 1e9)) {
-    return InputError(name, "scales " + file + " by a number that is not greater than zero",
+    return InputError(name,
+                      "scales " + file + " by " + Short(model.scale) + ", outside 1e-09 to 1e+09",
                       "scale enlarges the model");
   }
   for (const Vec3& v : {model.translation_m, model.rotation_deg}) {
@@ -240,16 +257,13 @@ Result<std::optional<ModelReference>> CompleteGround(const SceneFacts& facts, bo
 }
 
 Result<void> CheckLight(const SceneFacts& facts, const std::string& name) {
-  if (facts.turbidity && !Within(*facts.turbidity, 1.0, 64.0)) {
-    return InputError(name, "has a turbidity outside 1 to 64",
-                      "2 is a clear sky, 3 an ordinary one, 6 haze");
-  }
   if (facts.exposure_scale) {
     for (const double exposure_scale :
          {facts.exposure_scale->r, facts.exposure_scale->g, facts.exposure_scale->b}) {
       if (!Within(exposure_scale, 1e-12, 1e12)) {
-        return InputError(name, "has an exposure gain that is not greater than zero",
-                          "leave exposure_gain out to have it measured on the marker");
+        return InputError(
+            name, "has an exposure_gain of " + Short(exposure_scale) + ", outside 1e-12 to 1e+12",
+            "leave exposure_gain out to have it measured on the marker");
       }
     }
   }
@@ -263,6 +277,17 @@ Result<SceneFacts> ParseScene(std::string_view bytes, const std::string& name) {
   // No TOML document begins with a brace.
   const bool json = first != std::string_view::npos && bytes[first] == '{';
   return json ? ParseSceneJson(bytes, name) : ParseSceneToml(bytes, name);
+}
+
+Result<void> CheckRanges(const SceneFacts& facts, const std::string& name) {
+  PLEINAIR_RETURN_IF_ERROR(CheckFact(facts.place_time.latitude_deg, kLatitude, name));
+  PLEINAIR_RETURN_IF_ERROR(CheckFact(facts.place_time.longitude_deg, kLongitude, name));
+  PLEINAIR_RETURN_IF_ERROR(CheckFact(facts.place_time.height_m, kHeight, name));
+  PLEINAIR_RETURN_IF_ERROR(CheckFact(facts.marker.heading_deg, kHeading, name));
+  PLEINAIR_RETURN_IF_ERROR(CheckFact(facts.marker.heading_magnetic_deg, kMagneticHeading, name));
+  PLEINAIR_RETURN_IF_ERROR(CheckFact(facts.marker.size_m, kSize, name));
+  PLEINAIR_RETURN_IF_ERROR(CheckFact(facts.marker.id, kId, name));
+  return CheckFact(facts.turbidity, kTurbidity, name);
 }
 
 SceneFacts WithFallback(SceneFacts facts, const SceneFacts& fallback) {
@@ -293,6 +318,7 @@ SceneFacts WithFallback(SceneFacts facts, const SceneFacts& fallback) {
 
 Result<SceneDescription> CompleteScene(const SceneFacts& facts, const std::filesystem::path& file) {
   const std::string name = file.string();
+  PLEINAIR_RETURN_IF_ERROR(CheckRanges(facts, name));
   SceneDescription scene;
   scene.file = file;
   PLEINAIR_ASSIGN_OR_RETURN(scene.place_time, CompletePlaceTime(facts.place_time, name));

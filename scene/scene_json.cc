@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <cstdlib>
@@ -51,6 +52,14 @@ Result<void> ReadMarker(const files::JsonFields& marker, MarkerFacts* facts) {
   ParseMarkerDescription(marker.TextOr("what"), facts);
   if (marker.Has("family")) {
     PLEINAIR_ASSIGN_OR_RETURN(facts->family, marker.Text("family"));
+    const std::string family = facts->family.value_or("picture");
+    const bool known =
+        family == "picture" || std::any_of(kFamilies.begin(), kFamilies.end(),
+                                           [&](const auto& of) { return family == of.second; });
+    if (!known) {
+      return marker.Fail("family", "is unknown: \"" + family.substr(0, 64) + "\"",
+                         "S-G markers are \"sg\", usual AprilTags \"tag36h11\"");
+    }
   }
   if (marker.Has("id")) {
     PLEINAIR_ASSIGN_OR_RETURN(facts->id, marker.Integer("id"));
@@ -84,9 +93,15 @@ Result<void> ReadModel(const files::JsonFields& model, std::vector<ModelReferenc
   if (!file) return {};
   ModelReference reference;
   reference.file = *file;
-  const std::string shading = model.TextOr("shading");
-  if (shading.starts_with("flat")) reference.shading = Shading::kFlat;
-  if (shading.starts_with("smooth")) reference.shading = Shading::kSmooth;
+  PLEINAIR_ASSIGN_OR_RETURN(const std::optional<std::string> shading, model.Text("shading"));
+  if (shading) {
+    const bool flat = shading->starts_with("flat"), smooth = shading->starts_with("smooth");
+    if (!flat && !smooth && !shading->starts_with("file")) {
+      return model.Fail("shading", "is not known", "known are file, flat, smooth");
+    }
+    if (flat) reference.shading = Shading::kFlat;
+    if (smooth) reference.shading = Shading::kSmooth;
+  }
   models->push_back(std::move(reference));
   return {};
 }
@@ -118,11 +133,13 @@ Result<SceneFacts> ParseSceneJson(std::string_view bytes, const std::string& nam
   PLEINAIR_RETURN_IF_ERROR(ReadModel(fields.Object("virtual_object"), &facts.objects));
   facts.cloudiness = ReadCloudiness(fields);
   for (const files::JsonFields& block : {fields, fields.Object("calibration")}) {
-    const std::string response = block.TextOr("camera_response");
-    if (response.empty()) continue;
+    PLEINAIR_ASSIGN_OR_RETURN(const std::optional<std::string> response,
+                              block.Text("camera_response"));
+    if (!response || response->empty()) continue;
     facts.camera_response =
-        (std::filesystem::path(name).parent_path() / response).lexically_normal();
+        (std::filesystem::path(name).parent_path() / *response).lexically_normal();
   }
+  PLEINAIR_RETURN_IF_ERROR(CheckRanges(facts, name));
   return facts;
 }
 

@@ -72,6 +72,9 @@ class TomlTable {
     if (node == nullptr) return std::nullopt;
     const std::optional<std::string> text = node->value_exact<std::string>();
     if (!text) return Fail(node->source(), Quoted(key) + " is not a text in quotes");
+    if (text->find('\0') != std::string::npos) {
+      return Fail(node->source(), Quoted(key) + " holds a NUL character");
+    }
     return text;
   }
 

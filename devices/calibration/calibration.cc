@@ -1,8 +1,10 @@
 #include "devices/calibration/calibration.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
+#include <cstdio>
 #include <initializer_list>
 #include <optional>
 #include <vector>
@@ -84,6 +86,68 @@ Result<std::array<double, 8>> CoefficientsOf(const Readings& readings, Distortio
   return coefficients;
 }
 
+std::string Short(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%g", value);
+  return text.data();
+}
+
+/// Ranges relative to the image's longer side: lenses of 0.6 to 178 degrees of view, whose axis may
+/// lie outside a cropped image.
+Result<void> CheckIntrinsics(const CameraModel& camera, const std::string& name) {
+  constexpr double kMinFocal = 0.01, kMaxFocal = 100.0, kMaxCentre = 10.0;
+  const double side = std::max(camera.width, camera.height);
+  struct Intrinsic {
+    const char* name;
+    double value, min, max;
+  };
+  for (const Intrinsic& each : {Intrinsic{"fx", camera.fx, kMinFocal * side, kMaxFocal * side},
+                                {"fy", camera.fy, kMinFocal * side, kMaxFocal * side},
+                                {"cx", camera.cx, -kMaxCentre * side, kMaxCentre * side},
+                                {"cy", camera.cy, -kMaxCentre * side, kMaxCentre * side}}) {
+    if (std::isfinite(each.value) && each.value >= each.min && each.value <= each.max) continue;
+    return InputError(
+        name,
+        std::string("has ") + each.name + " = " + Short(each.value) + ", outside " +
+            Short(each.min) + " to " + Short(each.max) + " for an image of " +
+            std::to_string(camera.width) + "x" + std::to_string(camera.height),
+        "all four are in pixels; focal lengths are about as many as the image is wide");
+  }
+  return {};
+}
+
+/// The distorted radius must grow with the undistorted one, as far as the image reaches: otherwise
+/// two directions share a pixel. For fisheyes, as far as the image circle or 90 degrees.
+Result<void> CheckDistortion(const CameraModel& camera, const std::string& name) {
+  const bool fisheye = camera.distortion_model == DistortionModel::kEquidistant;
+  // Half the corner's distance: no lens draws its corners further in.
+  constexpr double kMinShrink = 0.5, kMaxRadius = 60.0, kStep = 0.002;
+  const double x = std::max(camera.cx, camera.width - camera.cx) / camera.fx;
+  const double y = std::max(camera.cy, camera.height - camera.cy) / camera.fy;
+  const double reach = fisheye ? std::min(x, y) : std::hypot(x, y);
+  double radius = 0.0, distorted = 0.0;
+  while (distorted < reach && radius < kMaxRadius) {
+    radius += kStep * (1.0 + radius);
+    double next = 0.0, across = 0.0;
+    CameraModel radial = camera;
+    if (!fisheye) radial.distortion[2] = radial.distortion[3] = 0.0;
+    DistortNormalized(radial, radius, 0.0, &next, &across);
+    if (!(next > distorted)) {
+      return InputError(name,
+                        "has a distortion that folds the image " + Short(distorted * camera.fx) +
+                            " pixels from its center, inside the image, which reaches " +
+                            Short(reach * camera.fx),
+                        "calibrate again, with views that reach the corners");
+    }
+    distorted = next;
+  }
+  if (fisheye || distorted < reach || radius >= kMinShrink * reach) return {};
+  return InputError(name,
+                    "has a distortion that moves the corners of the image from less than half of "
+                    "their distance from the center",
+                    "check the coefficients, or calibrate again");
+}
+
 Result<CameraModel> Judge(const Readings& readings, const std::string& name) {
   if (!readings.width || !readings.height) {
     return InputError(name, "does not say how many pixels the image has",
@@ -106,19 +170,11 @@ Result<CameraModel> Judge(const Readings& readings, const std::string& name) {
   camera.fy = readings.focal_and_centre[1];
   camera.cx = readings.focal_and_centre[2];
   camera.cy = readings.focal_and_centre[3];
-  for (const double intrinsic : readings.focal_and_centre) {
-    if (!std::isfinite(intrinsic) || std::fabs(intrinsic) > 1e7) {
-      return InputError(name, "has an intrinsic fx, fy, cx or cy that is not a usable number",
-                        kRemedy);
-    }
-  }
-  if (camera.fx <= 0.0 || camera.fy <= 0.0) {
-    return InputError(name, "has a focal length that is not greater than zero",
-                      "fx and fy are in pixels, about as many as the image is wide");
-  }
+  PLEINAIR_RETURN_IF_ERROR(CheckIntrinsics(camera, name));
   PLEINAIR_ASSIGN_OR_RETURN(camera.distortion_model, ModelOf(readings, name));
   PLEINAIR_ASSIGN_OR_RETURN(camera.distortion,
                             CoefficientsOf(readings, camera.distortion_model, name));
+  PLEINAIR_RETURN_IF_ERROR(CheckDistortion(camera, name));
   return camera;
 }
 

@@ -5,11 +5,15 @@
 #include <cstdint>
 #include <exception>
 #include <fstream>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "devices/images/cv_image.h"
+#include "devices/images/jpeg_decoder.h"
 #include "files/text_file.h"
 
 namespace pleinair::devices {
@@ -127,6 +131,27 @@ Result<ImageSize> InspectImageFile(const std::filesystem::path& file) {
   return InspectImage(bytes, file.string());
 }
 
+namespace {
+
+/// Nothing for colors that libjpeg does not convert to RGB (CMYK). Unlike OpenCV's decoder, it
+/// refuses damage inside the image, and libjpeg prints nothing.
+Result<std::optional<DecodedImage>> DecodeRgbJpeg(const std::string& bytes, ImageSize size,
+                                                  const std::string& name) {
+  DecodedImage image{RgbImage(size.width, size.height, 3), GreyImage(size.width, size.height, 1)};
+  const std::vector<std::uint8_t> encoded(bytes.begin(), bytes.end());
+  if (const auto decoded = DecodeJpeg(encoded, &image.rgb); !decoded) {
+    const std::string& what = decoded.error().what;
+    if (what.find("color conversion") != std::string::npos) return std::nullopt;
+    return InputError(name, what, kWholeCopy);
+  }
+  const cv::Mat rgb(size.height, size.width, CV_8UC3, image.rgb.data());
+  cv::Mat grey(size.height, size.width, CV_8UC1, image.grey.data());
+  cv::cvtColor(rgb, grey, cv::COLOR_RGB2GRAY);
+  return image;
+}
+
+}  // namespace
+
 DecodedImage ImageFromBgr(const cv::Mat& bgr) {
   DecodedImage image{RgbImage(bgr.cols, bgr.rows, 3), GreyImage(bgr.cols, bgr.rows, 1)};
   cv::Mat rgb(bgr.rows, bgr.cols, CV_8UC3, image.rgb.data());
@@ -139,6 +164,11 @@ DecodedImage ImageFromBgr(const cv::Mat& bgr) {
 Result<DecodedImage> DecodeImageFile(const std::filesystem::path& file) {
   PLEINAIR_ASSIGN_OR_RETURN(std::string bytes, files::ReadWholeFile(file, kMaxImageBytes));
   PLEINAIR_ASSIGN_OR_RETURN(const ImageSize size, InspectImage(bytes, file.string()));
+  if (bytes.starts_with(kJpegStart)) {
+    PLEINAIR_ASSIGN_OR_RETURN(std::optional<DecodedImage> decoded,
+                              DecodeRgbJpeg(bytes, size, file.string()));
+    if (decoded) return *std::move(decoded);
+  }
   try {
     const cv::Mat encoded(1, static_cast<int>(bytes.size()), CV_8UC1, bytes.data());
     const cv::Mat bgr = cv::imdecode(encoded, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);

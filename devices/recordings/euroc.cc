@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "devices/recordings/recording_manifest.h"
 #include "files/json_fields.h"
 
 namespace pleinair::devices {
@@ -46,6 +47,14 @@ Result<std::vector<EurocFrame>> ParseEurocTable(std::string_view bytes, const st
     if (!frames.empty() && frame.timestamp_ns <= frames.back().timestamp_ns) {
       return InputError(where, "is not later than the line before", "sort the lines by time");
     }
+    if (!frames.empty()) {
+      const double step_s =
+          1e-9 * static_cast<double>(frame.timestamp_ns - frames.back().timestamp_ns);
+      if (step_s < kMinStep_s || step_s > kMaxStep_s) {
+        return InputError(where, "is less than 0.00001 s or more than a year after the line before",
+                          "write time stamps in nanoseconds");
+      }
+    }
     frames.push_back(std::move(frame));
   }
   if (frames.empty()) return InputError(name, "lists no frames", "get a whole copy of it");
@@ -56,7 +65,9 @@ Result<std::optional<double>> ParseEurocRate(std::string_view bytes, const std::
   PLEINAIR_ASSIGN_OR_RETURN(const files::Json document, files::ParseYaml(bytes, name));
   const files::JsonFields fields(document, name);
   PLEINAIR_ASSIGN_OR_RETURN(const std::optional<double> rate_hz, fields.Number("rate_hz"));
-  if (rate_hz && *rate_hz <= 0.0) return fields.Fail("rate_hz", "is not greater than zero");
+  if (rate_hz && (*rate_hz < kMinRate_hz || *rate_hz > kMaxRate_hz)) {
+    return fields.Fail("rate_hz", "is outside 1e-7 to 1e5", "give frames a second");
+  }
   return rate_hz;
 }
 

@@ -9,6 +9,11 @@
 
 namespace pleinair::devices {
 
+/// Range of frame rates: from three frames a year to the fastest cameras.
+inline constexpr double kMinRate_hz = 1e-7, kMaxRate_hz = 1e5;
+/// Range of the time between frames: from the fastest rate to a year.
+inline constexpr double kMinStep_s = 1e-5, kMaxStep_s = 366.0 * 86400.0;
+
 /// Description of the frames in a recording.json or scene.json.
 struct RecordingManifest {
   std::optional<std::string> frames;  ///< Folder, printf pattern or video, relative to the file.

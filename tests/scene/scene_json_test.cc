@@ -112,7 +112,7 @@ TEST(SkyWords, CloudierWordsWinOverClearerOnes) {
 TEST(SceneJson, BadValuesAreRefusedByName) {
   EXPECT_EQ(Refusal(kScene), "no error");
   EXPECT_THAT(Refusal(tests::Replaced(kScene, "0.48", "0")),
-              HasSubstr("size is not greater than zero"));
+              HasSubstr("marker.size_m is 0, outside"));
   EXPECT_THAT(Refusal(tests::Replaced(kScene, "0.48", "\"large\"")),
               HasSubstr("\"marker.black_square_side_m\" is not a number"));
   EXPECT_THAT(Refusal(tests::Replaced(kScene, "0.48", "NaN")), HasSubstr("is not whole JSON"));
@@ -121,6 +121,12 @@ TEST(SceneJson, BadValuesAreRefusedByName) {
   EXPECT_THAT(Refusal(tests::Replaced(kScene, "\"latitude_deg\": 50", "\"latitude_deg\": -91")),
               HasSubstr("latitude"));
   EXPECT_THAT(Refusal(tests::Replaced(kScene, "0.05", "0.9")), HasSubstr("reflectances"));
+  EXPECT_THAT(Refusal(R"({"marker": {"family": "tag99h9"}})"),
+              HasSubstr("scene.json: \"marker.family\" is unknown: \"tag99h9\""));
+  EXPECT_THAT(Refusal(R"({"camera_response": 5})"), HasSubstr("\"camera_response\" is not a text"));
+  EXPECT_THAT(Refusal(R"({"virtual_object": {"file": "a.obj", "shading": "shiny"}})"),
+              HasSubstr("\"virtual_object.shading\" is not known"));
+  EXPECT_THAT(Refusal(R"({"virtual_object": {"file": "a.obj\u0000.txt"}})"), HasSubstr("a NUL"));
   EXPECT_THAT(Refusal("[]"), HasSubstr("where the recording was made"));
 }
 

@@ -154,20 +154,22 @@ TEST(SceneToml, ValuesMustBeInRange) {
   };
   EXPECT_THAT(with("50.0875", "90.5"), HasSubstr("latitude"));
   EXPECT_THAT(with("50.0875", "nan"), HasSubstr("scene.toml:7: \"latitude_deg\" is not finite"));
-  EXPECT_THAT(with("14.4213", "-180.5"), HasSubstr("longitude"));
+  EXPECT_THAT(with("14.4213", "181"), HasSubstr("longitude_deg is 181, outside -180 to 180"));
   EXPECT_THAT(with("220", "1e9"), HasSubstr("height"));
-  EXPECT_THAT(with("size_mm = 480", "size_mm = 0"), HasSubstr("size is not greater than zero"));
-  EXPECT_THAT(with("size_mm = 480", "size_mm = -1"), HasSubstr("size is not greater than zero"));
+  EXPECT_THAT(with("size_mm = 480", "size_mm = 0"),
+              HasSubstr("marker.size_m is 0, outside 0.0001 to 1000"));
+  EXPECT_THAT(with("size_mm = 480", "size_mm = 1e9"), HasSubstr("marker.size_m is 1e+06"));
   EXPECT_THAT(with("size_mm = 480", "size_mm = inf"), HasSubstr("is not finite"));
   EXPECT_THAT(with("board_size_mm = 600", "board_size_mm = 400"), HasSubstr("smaller than its"));
   EXPECT_THAT(with("heading_deg = 342", "heading_deg = 720"), HasSubstr("heading"));
   EXPECT_THAT(with("turbidity = 3.5", "turbidity = 0"), HasSubstr("turbidity"));
-  EXPECT_THAT(with("[0.03, 0.035, 0.04]", "[0.03, 0, 0.04]"), HasSubstr("exposure gain"));
+  EXPECT_THAT(with("[0.03, 0.035, 0.04]", "[0.03, 0, 0.04]"), HasSubstr("exposure_gain of 0"));
   EXPECT_THAT(with("[0.03, 0.035, 0.04]", "[0.03, 0.04]"), HasSubstr("three numbers"));
-  EXPECT_THAT(with("scale = 0.001", "scale = 0"), HasSubstr("greater than zero"));
+  EXPECT_THAT(with("scale = 0.001", "scale = 0"), HasSubstr("by 0, outside 1e-09 to 1e+09"));
   EXPECT_THAT(with("id = 7", "id = -7"), HasSubstr("whole number from 0 up"));
   EXPECT_THAT(with("[1, 2.5, 0]", "[1, 2.5, 1e30]"), HasSubstr("million metres"));
   EXPECT_THAT(with("\"smooth\"", "\"shiny\""), HasSubstr("known are file, flat and smooth"));
+  EXPECT_THAT(with("models/wall.obj", "models/wall.obj\\u0000x"), HasSubstr("holds a NUL"));
   EXPECT_THAT(with("up = \"y\"", "up = \"x\""), HasSubstr("known are y and z"));
   EXPECT_THAT(with("\"ft\"", "\"yd\""), HasSubstr("known are mm, cm, m, in and ft"));
   EXPECT_THAT(with("animation = \"Walk\"\n", ""), HasSubstr("needs an animation"));

@@ -152,10 +152,11 @@ TEST(Calibration, RationalModelHasEightCoefficients) {
   const std::string rational =
       tests::Replaced(tests::Replaced(tests::Replaced(kRos, "plumb_bob", "rational_polynomial"),
                                       "cols: 5", "cols: 8"),
-                      "-0.0004, 0.01]", "-0.0004, 0.01, 1, 2, 3]");
+                      "-0.0004, 0.01]", "-0.0004, 0.01, -0.1, 0.02, 0.001]");
   const Result<CameraModel> camera = ParseCalibration(rational, "ros");
   ASSERT_TRUE(camera) << camera.error().Message();
-  EXPECT_THAT(camera->distortion, ElementsAre(-0.13, 0.045, 0.0006, -0.0004, 0.01, 1, 2, 3));
+  EXPECT_THAT(camera->distortion,
+              ElementsAre(-0.13, 0.045, 0.0006, -0.0004, 0.01, -0.1, 0.02, 0.001));
 }
 
 TEST(Calibration, FisheyeIsKnownByItsModelOrByItsFlag) {
@@ -184,8 +185,9 @@ TEST(Calibration, IsKnownByContentWhateverTheEnding) {
 }
 
 TEST(Calibration, FocalLengthThatIsZeroNegativeOrNanIsRefused) {
-  EXPECT_THAT(Refusal(tests::Replaced(kOwn, "585", "0")), HasSubstr("focal length"));
-  EXPECT_THAT(Refusal(tests::Replaced(kOwn, "588.5", "-588.5")), HasSubstr("focal length"));
+  EXPECT_THAT(Refusal(tests::Replaced(kOwn, "585", "0")), HasSubstr("has fx = 0, outside"));
+  EXPECT_THAT(Refusal(tests::Replaced(kOwn, "588.5", "-588.5")),
+              HasSubstr("has fy = -588.5, outside"));
   EXPECT_THAT(Refusal(tests::Replaced(kOwn, "585", "NaN")), HasSubstr("is not whole JSON"));
   EXPECT_THAT(Refusal(tests::Replaced(kOwn, "585", "1e999")), HasSubstr("is not whole JSON"));
   EXPECT_THAT(Refusal(tests::Replaced(kOwn, "585", "\"wide\"")),
@@ -193,7 +195,19 @@ TEST(Calibration, FocalLengthThatIsZeroNegativeOrNanIsRefused) {
   EXPECT_THAT(Refusal(tests::Replaced(kOpenCv, "5.8500000000000000e+02", ".Nan")),
               AllOf(HasSubstr("\"camera_matrix.data\""), HasSubstr("not finite")));
   EXPECT_THAT(Refusal(tests::Replaced(kKalibr, "585.0", ".inf")), HasSubstr("not finite"));
-  EXPECT_THAT(Refusal(tests::Replaced(kKalibr, "585.0", "0")), HasSubstr("focal length"));
+  EXPECT_THAT(Refusal(tests::Replaced(kKalibr, "585.0", "0")), HasSubstr("has fx = 0, outside"));
+}
+
+TEST(Calibration, LensesOfNoWorldAreRefused) {
+  EXPECT_THAT(Refusal(tests::Replaced(kOwn, "585", "1e-308")),
+              HasSubstr("fx = 1e-308, outside 6.4"));
+  EXPECT_THAT(Refusal(tests::Replaced(kOwn, "326.3", "1e6")), HasSubstr("cx = 1e+06, outside"));
+  EXPECT_THAT(Refusal(tests::Replaced(kOwn, "-0.13, 0.045", "-50, 0.045")),
+              HasSubstr("folds the image"));
+  EXPECT_THAT(Refusal(tests::Replaced(kOwn, "-0.13, 0.045", "50, 0.045")),
+              HasSubstr("less than half of their distance"));
+  // Folds beyond the corners only.
+  EXPECT_EQ(Refusal(tests::Replaced(kOwn, "-0.13, 0.045", "-0.4, 0.1")), "no error");
 }
 
 TEST(Calibration, ImageSizeMustBeOfThisWorld) {
@@ -257,7 +271,8 @@ TEST(Calibration, FilesThatCannotBeReadAreNamed) {
   const tests::TemporaryFolder folder;
   EXPECT_THAT(tests::MessageOf(ReadCalibration(folder / "none.yaml")),
               AllOf(HasSubstr("none.yaml"), HasSubstr("no such file")));
-  EXPECT_THAT(tests::MessageOf(ReadCalibration(folder.path())), HasSubstr("is not a file"));
+  EXPECT_THAT(tests::MessageOf(ReadCalibration(folder.path())),
+              HasSubstr("is a folder, not a file"));
   EXPECT_THAT(tests::MessageOf(ReadCalibration(folder.Write("empty.yaml", ""))),
               HasSubstr("is empty"));
   EXPECT_THAT(

@@ -71,6 +71,26 @@ TEST(ImageFile, DamagedDataIsAnError) {
               HasSubstr("damaged.png: is damaged"));
 }
 
+TEST(ImageFile, DamageInsideAJpegIsAnErrorThatNamesIt) {
+  const tests::TemporaryFolder folder;
+  std::string bytes = tests::Content(tests::Courtyard() / "frames" / "0000.jpg");
+  bytes.replace(bytes.size() / 2, 2, "\xFF\xD3");  // A restart marker where none belongs.
+  ::testing::internal::CaptureStderr();
+  const Result<DecodedImage> decoded = DecodeImageFile(folder.Write("a.jpg", bytes));
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+  ASSERT_FALSE(decoded);
+  EXPECT_THAT(decoded.error().Message(), HasSubstr("a.jpg: the image is damaged: Corrupt JPEG"));
+}
+
+TEST(ImageFile, AJpegWithoutColorsIsDecoded) {
+  const tests::TemporaryFolder folder;
+  const cv::Mat grey(8, 8, CV_8UC1, cv::Scalar(90));
+  cv::imwrite((folder / "grey.jpg").string(), grey);
+  const Result<DecodedImage> decoded = DecodeImageFile(folder / "grey.jpg");
+  ASSERT_TRUE(decoded) << decoded.error().Message();
+  EXPECT_EQ(decoded->rgb(4, 4, 2), 90);
+}
+
 TEST(ImageFile, DecodesToTheBytesThatOpenCvGives) {
   const std::filesystem::path file = tests::Courtyard() / "frames" / "0007.jpg";
   const Result<DecodedImage> image = DecodeImageFile(file);

@@ -195,12 +195,12 @@ TEST_F(SmallRecording, HandWrittenSceneLeansOnTheRecordingForPlaceAndMarker) {
 }
 
 TEST_F(SmallRecording, CalibrationOfTheCommandOverridesItsOwn) {
-  const std::filesystem::path lens =
-      folder_.Write("lens.yaml", "image_size: [640, 480]\nK: [1, 0, 2, 0, 3, 4, 0, 0, 1]\nD: []\n");
+  const std::filesystem::path lens = folder_.Write(
+      "lens.yaml", "image_size: [640, 480]\nK: [700, 0, 300, 0, 710, 200, 0, 0, 1]\nD: []\n");
   const Result<Recording> recording =
       OpenRecording(folder_.path(), {.calibration = lens, .scene = {}});
   ASSERT_TRUE(recording) << recording.error().Message();
-  EXPECT_EQ(recording->camera.fy, 3);
+  EXPECT_EQ(recording->camera.fy, 710);
 }
 
 TEST_F(SmallRecording, NumbersNeedNoPaddingAndMayStartAnywhere) {
@@ -255,6 +255,18 @@ TEST_F(SmallRecording, FrameThatVanishesWhileReadingEndsTheSource) {
   EXPECT_FALSE(recording->frames->Next()->has_value());
 }
 
+TEST_F(SmallRecording, ASceneThatIsNoFileIsNotPassedOver) {
+  std::filesystem::remove(folder_ / "scene.toml");
+  std::filesystem::create_directory(folder_ / "scene.toml");
+  EXPECT_THAT(Message(), HasSubstr("scene.toml: is a folder, not a file"));
+  std::filesystem::remove(folder_ / "scene.toml");
+  std::filesystem::create_symlink("gone.toml", folder_ / "scene.toml");
+  EXPECT_THAT(Message(), HasSubstr("scene.toml: is a link to nothing"));
+  std::filesystem::remove(folder_ / "scene.toml");
+  std::filesystem::create_symlink("scene.toml", folder_ / "scene.toml");
+  EXPECT_THAT(Message(), HasSubstr("scene.toml: is a link to itself"));
+}
+
 TEST_F(SmallRecording, SenselessDescriptionsAreRefused) {
   const auto with = [this](const char* from, const char* to) {
     folder_.Write("recording.json", tests::Replaced(kRecordingJson, from, to));
@@ -262,11 +274,18 @@ TEST_F(SmallRecording, SenselessDescriptionsAreRefused) {
   };
   EXPECT_THAT(with("0.2, 0.35", "0.35"), HasSubstr("3 entries for 4 frames"));
   EXPECT_THAT(with("0.2, 0.35", "0.35, 0.2"), HasSubstr("does not ascend at frame 3"));
+  EXPECT_THAT(with("0.2, 0.35", "0.2, 0.200000001"),
+              HasSubstr("has frame 3 9.99999999e-10 s after"));
+  EXPECT_THAT(with("0.2, 0.35", "0.2, 1e8"), HasSubstr("outside 1e-5 s to a year"));
+  EXPECT_THAT(with("0.2, 0.35", "0.2, 1e10"), HasSubstr("is 1e+10 at frame 3"));
+  EXPECT_THAT(with("\"format\": 1", "\"frame_rate_hz\": 1e-308"), HasSubstr("is 1e-308, outside"));
   EXPECT_THAT(with("[0, 0.1, 0.2, 0.35]", "[]"), HasSubstr("does not say the frame rate"));
   EXPECT_THAT(with("\"frame_count\": 4", "\"frame_count\": 0"), HasSubstr("frame_count"));
-  EXPECT_THAT(with("\"format\": 1", "\"frame_rate_hz\": 0"), HasSubstr("is no frame rate"));
-  EXPECT_THAT(with("605", "0"), HasSubstr("focal length"));
-  EXPECT_THAT(with("\"size_m\": 0.48", "\"size_m\": 0"), HasSubstr("size is not greater"));
+  EXPECT_THAT(with("\"format\": 1", "\"frame_rate_hz\": 0"),
+              HasSubstr("is 0, outside 1e-7 to 1e5"));
+  EXPECT_THAT(with("605", "0"), HasSubstr("= 0, outside 6.4 to 64000"));
+  EXPECT_THAT(with("\"size_m\": 0.48", "\"size_m\": 0"),
+              HasSubstr("recording.json: marker.size_m is 0, outside"));
   EXPECT_THAT(with("11:05:00Z", "11:05:00"), HasSubstr("neither Z nor an offset"));
   EXPECT_THAT(with("342}}", "342}"), HasSubstr("cut short"));
 }
