@@ -93,11 +93,11 @@ Result<void> RunAccuracy(AccuracyOptions& options) {
     std::cerr << "pleinair accuracy: skipped " << message << '\n';
   }
   if (outcome.skipped.empty()) return {};
-  return SystemError(
-      options.output,
-      fmt::format("{} of {} recordings could not be measured", outcome.skipped_recordings.size(),
-                  options.config.recordings.size()),
-      "correct what the lines above report and run again: finished parts are kept");
+  return tl::make_unexpected(
+      Error{outcome.skipped_kind, options.output,
+            fmt::format("{} of {} recordings could not be measured",
+                        outcome.skipped_recordings.size(), options.config.recordings.size()),
+            "correct what the lines above report and run again: finished parts are kept"});
 }
 
 }  // namespace

@@ -190,6 +190,7 @@ Result<void> RunBench(BenchOptions& options) {
 void AddBenchCommand(CLI::App& app, CommandResult& result) {
   CLI::App* bench =
       app.add_subcommand("bench", "For research: measure shadow methods, replay with more options");
+  bench->footer(kBenchExamples);
   bench->require_subcommand(1);
   AddBenchReplayCommand(*bench, result);
   auto options = std::make_shared<BenchOptions>();

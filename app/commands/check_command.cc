@@ -9,6 +9,7 @@
 #include "app/check/check_project.h"
 #include "app/check/site_findings.h"
 #include "app/commands/command.h"
+#include "app/options/model_options.h"
 #include "app/options/option_use.h"
 
 namespace pleinair::app {
@@ -73,6 +74,7 @@ void AddCheckCommand(CLI::App& app, CommandResult& result) {
   command->add_option("--scene", arguments->scene, "Scene instead of the project's own");
   command->add_option("--calibration", arguments->calibration,
                       "Calibration of the lens instead of the project's own");
+  AddModelFileOptions(*command);
   command->add_flag("--json", arguments->json, "One JSON object for each finding");
   RefuseEmptyValues(*command);
   command->callback([arguments, &result] { result.status = RunCheck(*arguments); });

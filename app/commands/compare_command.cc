@@ -4,6 +4,7 @@
 #include <exception>
 #include <iostream>
 #include <memory>
+#include <new>
 #include <string>
 #include <utility>
 #include <vector>
@@ -129,6 +130,9 @@ void AddCompareCommand(CLI::App& app, CommandResult& result) {
   command->callback([options, &result] {
     try {
       result.status = RunCompare(*options);
+    } catch (const std::bad_alloc&) {
+      result.status = SystemError("", "needs more memory than there is",
+                                  "use fewer or smaller images, or a machine with more");
     } catch (const std::exception& error) {
       result.status = SystemError("", std::string("compare failed: ") + error.what(),
                                   "please report it with the images");

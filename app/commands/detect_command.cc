@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/command.h"
-#include "app/commands/located_error.h"
+#include "app/options/located_error.h"
 #include "app/options/marker_numbers.h"
 #include "app/options/option_use.h"
 #include "app/output/pose_json.h"
@@ -93,7 +93,10 @@ Result<void> RunDetect(const DetectArguments& arguments, std::ostream& out) {
     options.targets.push_back(std::make_shared<const tracker::PictureTarget>(std::move(target)));
   }
   auto tracker = tracker::Tracker::Create(camera, options);
-  if (!tracker) return LocatedError(std::move(tracker).error(), "--family");
+  if (!tracker) {
+    const bool of_family = tracker.error().what.find("family") != std::string::npos;
+    return LocatedError(std::move(tracker).error(), of_family ? "--family" : arguments.calibration);
+  }
   for (const std::string& picture : arguments.pictures) {
     PLEINAIR_RETURN_IF_ERROR(CheckPicture(picture, camera, arguments.calibration));
   }

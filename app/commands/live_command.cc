@@ -22,6 +22,7 @@
 #include "app/live/paced_recording.h"
 #include "app/options/light_options.h"
 #include "app/options/local_time.h"
+#include "app/options/model_options.h"
 #include "app/options/number_range.h"
 #include "app/options/option_use.h"
 #include "app/options/picture_size.h"
@@ -380,10 +381,13 @@ void AddLiveCommand(CLI::App& app, CommandResult& result) {
                       "At the end, write the last image as PNG");
   AddLightOptions(*command, a.light);
   AddSolverOptions(*command, a.light);
+  AddModelFileOptions(*command);
   command->add_flag("--shadow-debug", a.shadow_debug,
                     "Tint surfaces by shadow-map partition and show the maps (in the window: M)");
   command->add_flag("--headless", a.headless, "Without a window");
-  command->add_option("--seconds", a.seconds, "End after this many seconds")
+  command
+      ->add_option("--seconds", a.seconds,
+                   "End this many seconds after the session has opened, which takes some more")
       ->check(NumberRange(0.0, 1e9));
   command->add_option("--window", a.window.size, "Size of the window, WIDTHxHEIGHT");
   command->add_option("--ui-scale", a.window.ui_scale, "Scale of the window's text; 1 is usual")

@@ -12,6 +12,7 @@
 #include "app/commands/command.h"
 #include "app/model/contact_sheet.h"
 #include "app/model/model_facts.h"
+#include "app/options/model_options.h"
 #include "app/options/option_use.h"
 #include "compositor/models/model.h"
 #include "export/images/image_writer.h"
@@ -148,6 +149,7 @@ void AddModelCommand(CLI::App& app, CommandResult& result) {
       ->capture_default_str();
   command->add_option("-o,--output", options->output, "Contact sheet (.png), or a folder for them")
       ->type_name("FILE");
+  AddModelFileOptions(*command);
   command->add_flag("--json", options->json, "One JSON object per file");
   RefuseEmptyValues(*command);
   command->callback([options, &result] { result.status = RunModel(*options); });

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/command.h"
+#include "app/options/model_options.h"
 #include "app/options/number_range.h"
 #include "app/options/option_use.h"
 #include "app/project/new_project.h"
@@ -198,6 +199,7 @@ void AddNewCommand(CLI::App& app, CommandResult& result) {
   command->add_flag("-y,--yes", arguments->flags.yes,
                     "Ask nothing; take time, place and direction of the files' tags");
   command->add_flag("--force", arguments->flags.force, "Replace an earlier project in the folder");
+  AddModelFileOptions(*command);
   command->add_flag("--json", arguments->flags.json, "Print a summary as one JSON object");
   RefuseEmptyValues(*command);
   command->callback([arguments, &result] { result.status = RunNew(*arguments); });

@@ -89,6 +89,7 @@ Result<void> RunPath(const PathArguments& arguments) {
 
 void AddPathCommand(CLI::App& app, CommandResult& result) {
   CLI::App* path = app.add_subcommand("path", "Convert camera trajectories for other programs");
+  path->footer(kPathExamples);
   path->require_subcommand(1);
   CLI::App* command = path->add_subcommand(
       "convert", "Convert a camera trajectory to another format and its frame of reference");

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "app/options/light_options.h"
+#include "app/options/model_options.h"
 #include "app/options/number_range.h"
 #include "app/options/trajectory_options.h"
 
@@ -38,6 +39,7 @@ void AddReplayOptions(CLI::App& command, ReplayArguments& arguments) {
       ->check(NumberRange(0.0, kMaxTime_s))
       ->excludes(frame);
   AddTrajectoryOptions(command, arguments.options.trajectory);
+  AddModelFileOptions(command);
   command.add_flag("--frames", arguments.written.frames, "Also write every frame as a PNG picture");
   command
       .add_option("--export", arguments.exports,

@@ -8,6 +8,7 @@
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <new>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -179,6 +180,9 @@ Result<void> Run(ReplayArguments& arguments) {
 Result<void> RunAlone(ReplayArguments& arguments) {
   try {
     return Run(arguments);
+  } catch (const std::bad_alloc&) {
+    return SystemError(arguments.paths.recording, "needs more memory than there is",
+                       "use a smaller recording or simpler models, or a machine with more");
   } catch (const std::exception& error) {
     return SystemError(arguments.paths.recording, std::string("replay failed: ") + error.what(),
                        "please report it with the recording");

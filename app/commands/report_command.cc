@@ -150,6 +150,10 @@ void AddDiff(CLI::App* report, CommandResult& result) {
 
 void AddReportCommand(CLI::App& app, CommandResult& result) {
   CLI::App* report = app.add_subcommand("report", "Merge and compare reports of accuracy runs");
+  report->footer(
+      "Examples:\n"
+      "  pleinair report merge shard1 shard2 shard3 -o out/full\n"
+      "  pleinair report diff out/before out/after");
   report->require_subcommand(1);
   AddMerge(report, result);
   AddDiff(report, result);

@@ -15,7 +15,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/command.h"
-#include "app/commands/located_error.h"
+#include "app/options/located_error.h"
 #include "base/atomic_file.h"
 #include "base/units.h"
 #include "devices/images/image_file.h"

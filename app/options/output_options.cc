@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Every option of any command that names what is written.
-constexpr std::array<std::string_view, 15> kOutputOptions = {
+constexpr std::array<std::string_view, 16> kOutputOptions = {
     "--coverage",    "--description", "--euroc",      "--kalibr",  "--opencv",
     "--opencv-json", "--output",      "--path",       "--preview", "--record",
     "--report",      "--ros",         "--screenshot", "--spectra", "OUT"};
@@ -49,6 +49,12 @@ Result<void> CheckOptionsOf(const CLI::App& command) {
         outputs.push_back({option->get_name(), value});
       } else {
         inputs.push_back(FileOf(value));
+        // The path of a recording's description stands for its folder.
+        const fs::path name = fs::path(inputs.back()).filename();
+        const bool describes = name == "recording.json" || name == "scene.json";
+        if (option->get_positional() && describes) {
+          inputs.push_back((fs::path(inputs.back()).parent_path() / ".").string());
+        }
       }
     }
   }

@@ -13,10 +13,14 @@ namespace {
 
 bool IsNamedFromModel(const std::string& file, void* model_folder) {
   // tinygltf first prefixes the name with the model's folder, then with the working folder.
-  const std::string& folder = *static_cast<const std::string*>(model_folder);
-  if (!file.starts_with(folder)) return false;
-  const bool absolute = file[folder.size()] == '/';  // The name in the model, after the folder.
+  GltfFolder& from = *static_cast<GltfFolder*>(model_folder);
+  if (!file.starts_with(from.folder)) return false;
+  const bool absolute = file[from.folder.size()] == '/';  // The name in the model.
   if (absolute) return false;
+  if (auto belongs = CheckBelongsToModel(file, from.folder); !belongs) {
+    if (!from.error) from.error = belongs.error();
+    return false;
+  }
   std::error_code ignored;
   return std::filesystem::is_regular_file(file, ignored);
 }
@@ -34,7 +38,7 @@ bool ReadBesideModel(std::vector<unsigned char>* bytes, std::string* error, cons
 
 }  // namespace
 
-tinygltf::FsCallbacks FilesBesideModel(std::string* folder) {
+tinygltf::FsCallbacks FilesBesideModel(GltfFolder* folder) {
   return {.FileExists = IsNamedFromModel,
           .ExpandFilePath = [](const std::string& file, void*) { return file; },
           .ReadWholeFile = ReadBesideModel,

@@ -114,21 +114,22 @@ class GltfReader {
     tinygltf::TinyGLTF loader;
     loader.SetImageLoader(KeepEncoded, &encoded_);
     std::string error, warning;
-    std::string folder = (file_.has_parent_path() ? file_.parent_path() / "" : "./").string();
-    loader.SetFsCallbacks(FilesBesideModel(&folder));
+    GltfFolder from{(file_.has_parent_path() ? file_.parent_path() / "" : "./").string(), {}};
+    loader.SetFsCallbacks(FilesBesideModel(&from));
     const auto size = static_cast<unsigned>(std::min<std::size_t>(content_.size(), ~0U));
     bool ok = false;
     try {
-      ok =
-          content_.starts_with("glTF")
-              ? loader.LoadBinaryFromMemory(&gltf_, &error, &warning,
-                                            reinterpret_cast<const unsigned char*>(content_.data()),
-                                            size, folder)
-              : loader.LoadASCIIFromString(&gltf_, &error, &warning, content_.data(), size, folder);
+      ok = content_.starts_with("glTF")
+               ? loader.LoadBinaryFromMemory(
+                     &gltf_, &error, &warning,
+                     reinterpret_cast<const unsigned char*>(content_.data()), size, from.folder)
+               : loader.LoadASCIIFromString(&gltf_, &error, &warning, content_.data(), size,
+                                            from.folder);
     } catch (const std::exception& exception) {
       error = exception.what();
     }
-    if (ok) return {};
+    if (from.error) return tl::make_unexpected(*from.error);
+    if (ok) return CheckGltfValues(gltf_, where_);
     std::string first = error.substr(0, error.find('\n'));
     if (first.empty()) first = "unknown cause";
     return GltfError(where_, "is not a valid glTF 2.0 file: " + first.substr(0, 200));

@@ -1,8 +1,12 @@
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <new>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "base/little_endian.h"
 #include "compositor/models/alpha_cutout.h"
 #include "compositor/models/animation/model_animation.h"
 #include "compositor/models/gltf_pose.h"
@@ -26,11 +30,56 @@ tl::unexpected<Error> TooLarge(const std::filesystem::path& file) {
   return SystemError(file.string(), "not enough memory for this model", "use a simpler one");
 }
 
+/// The name of a format that is not read, by its content; empty: none that is known.
+std::string OtherFormat(std::string_view content) {
+  constexpr std::size_t kHead = 84, kTriangle = 50;  // Of binary STL.
+  struct Start {
+    std::string_view bytes;
+    const char* name;
+  };
+  for (const Start& start : {Start{"ply\n", "a PLY model"},
+                             {"ply\r", "a PLY model"},
+                             {"Kaydara FBX", "an FBX model"},
+                             {"; FBX", "an FBX model"},
+                             {"BLENDER", "a Blender file"},
+                             {"PK\x03\x04", "an archive (USDZ, 3MF or ZIP)"},
+                             {"<?xml", "XML (Collada or X3D)"},
+                             {"%PDF", "a PDF document"},
+                             {"\x89PNG", "a PNG image"},
+                             {"\xFF\xD8\xFF", "a JPEG image"}}) {
+    if (content.starts_with(start.bytes)) return start.name;
+  }
+  if (content.starts_with("solid") && content.find("facet") != std::string_view::npos) {
+    return "an STL model";
+  }
+  if (content.size() > kHead) {
+    LittleEndianReader count(content.substr(kHead - 4, 4));
+    if (count.Get<std::uint32_t>() * std::uint64_t{kTriangle} + kHead == content.size()) {
+      return "an STL model";
+    }
+  }
+  return "";
+}
+
 Result<Model> ParseByContent(std::string content, const std::filesystem::path& file,
                              const ModelPose& pose) {
+  if (content.empty()) return InputError(file.string(), "is empty", "get a whole copy of it");
   if (LooksLikeGltf(content)) return ParseGltf(std::move(content), file, pose);
+  if (const std::string format = OtherFormat(content); !format.empty()) {
+    return InputError(file.string(), "is " + format + ", which is not read",
+                      "export it as glTF or OBJ");
+  }
   if (!pose.animation.empty()) return NotAnimated(file);
-  return ParseObj(content, file, {ReadWholeFile, ReadTexture});
+  const std::filesystem::path folder = file.parent_path();
+  const auto text = [&](const std::filesystem::path& named) -> Result<std::string> {
+    PLEINAIR_RETURN_IF_ERROR(CheckBelongsToModel(named, folder));
+    return ReadWholeFile(named);
+  };
+  const auto texture = [&](const std::filesystem::path& named) -> Result<Image<std::uint8_t>> {
+    PLEINAIR_RETURN_IF_ERROR(CheckBelongsToModel(named, folder));
+    return ReadTexture(named);
+  };
+  return ParseObj(content, file, {text, texture});
 }
 
 /// Applies the normals and the opacity of `options`. Returns the sources of the vertices.

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
+#include <cstdio>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <string>
@@ -15,6 +18,20 @@ namespace pleinair::compositor {
 namespace {
 
 constexpr std::size_t kMaxMaterials = 100'000;
+
+/// Range of a statement's numbers.
+struct MtlRange {
+  std::string_view keyword;
+  float min, max;
+};
+// Colors and shares may exceed 1 by rounding. Old files write Ks beyond 1; coats reflect at most
+// 8 % in any case. Ke is display-linear or cd/m².
+constexpr float kOne = 1.01F;
+constexpr MtlRange kMtlRanges[] = {
+    {"Kd", 0.0F, kOne},  {"Ks", 0.0F, 100.0F}, {"Ke", 0.0F, 2e10F}, {"Ps", 0.0F, kOne},
+    {"Ns", 0.0F, 1e6F},  {"Pr", 0.0F, kOne},   {"Pm", 0.0F, kOne},  {"Pc", 0.0F, kOne},
+    {"Pcr", 0.0F, kOne}, {"d", 0.0F, kOne},    {"Tr", 0.0F, kOne},  {"illum", 0.0F, 10.0F},
+    {"-bm", -1e3F, 1e3F}};
 // Roughness of sheen, which MTL does not state.
 constexpr float kClothRoughness = 0.3F;
 
@@ -38,20 +55,23 @@ class MtlParser {
  public:
   MtlParser(std::string_view text, const std::filesystem::path& file,
             const ObjCompanions& companions, Model* model)
-      : lines_(text), file_(file), companions_(companions), model_(model) {}
+      : lines_(WithoutByteOrderMark(text)), file_(file), companions_(companions), model_(model) {}
 
   Result<void> Parse() {
     while (lines_.Next()) {
       const std::string_view keyword = lines_.Word();
+      if (!IsKeyword(keyword)) return Fail("holds no statement of a material library");
       if (keyword == "newmtl") {
         PLEINAIR_RETURN_IF_ERROR(Finish());
         if (model_->materials.size() >= kMaxMaterials) return Fail("has too many materials");
         draft_.emplace();
+        has_material_ = true;
         draft_->material.name = std::string(lines_.Rest());
       } else if (draft_) {
         PLEINAIR_RETURN_IF_ERROR(Statement(keyword));
       }
     }
+    if (!has_material_ && lines_.line_number() > 0) return Fail("defines no material");
     return Finish();
   }
 
@@ -61,18 +81,45 @@ class MtlParser {
                       "repair the material or export the model again");
   }
 
-  Result<float> Number() {
+  static std::string_view WithoutByteOrderMark(std::string_view text) {
+    constexpr std::string_view kMark = "\xEF\xBB\xBF";
+    return text.starts_with(kMark) ? text.substr(kMark.size()) : text;
+  }
+
+  /// Vendors add words of their own.
+  static bool IsKeyword(std::string_view word) {
+    return std::all_of(word.begin(), word.end(), [](char c) {
+      return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-' || c == '.' ||
+             c == ':';
+    });
+  }
+
+  /// A number of a statement or option, in its range.
+  Result<float> Number(std::string_view keyword) {
     const std::string_view word = lines_.Word();
     const std::optional<float> value = ParseObjNumber(word);
     if (!value) return Fail(Quoted(word) + " is not a finite number");
-    return *value;
+    const auto* range = std::find_if(std::begin(kMtlRanges), std::end(kMtlRanges),
+                                     [&](const MtlRange& of) { return of.keyword == keyword; });
+    if (range == std::end(kMtlRanges) || (*value >= range->min && *value <= range->max)) {
+      return *value;
+    }
+    return Fail(std::string(keyword) + " " + std::string(word.substr(0, 32)) + " is outside " +
+                ShortNumber(range->min) + " to " +
+                ShortNumber(range->max == kOne ? 1.0F : range->max));
   }
 
-  Result<std::array<float, 3>> Color() {
-    PLEINAIR_ASSIGN_OR_RETURN(const float red, Number());
+  static std::string ShortNumber(float value) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%g", static_cast<double>(value));
+    return text.data();
+  }
+
+  Result<std::array<float, 3>> Color(std::string_view keyword) {
+    PLEINAIR_ASSIGN_OR_RETURN(const float red, Number(keyword));
     if (lines_.Rest().empty()) return std::array<float, 3>{red, red, red};
-    PLEINAIR_ASSIGN_OR_RETURN(const float green, Number());
-    PLEINAIR_ASSIGN_OR_RETURN(const float blue, Number());
+    PLEINAIR_ASSIGN_OR_RETURN(const float green, Number(keyword));
+    PLEINAIR_ASSIGN_OR_RETURN(const float blue, Number(keyword));
     return std::array<float, 3>{red, green, blue};
   }
 
@@ -84,7 +131,7 @@ class MtlParser {
       return Fail("colours other than RGB are not supported");
     }
     if (is_color) {
-      PLEINAIR_ASSIGN_OR_RETURN(auto color, Color());
+      PLEINAIR_ASSIGN_OR_RETURN(auto color, Color(keyword));
       for (float& value : color) value = std::clamp(value, 0.0F, 1.0F);
       if (keyword == "Ks") {
         draft_->specular = color;
@@ -93,30 +140,29 @@ class MtlParser {
         draft_->has_color = true;
       }
     } else if (keyword == "Ns") {
-      PLEINAIR_ASSIGN_OR_RETURN(draft_->exponent, Number());
+      PLEINAIR_ASSIGN_OR_RETURN(draft_->exponent, Number(keyword));
     } else if (keyword == "Pr") {
-      PLEINAIR_ASSIGN_OR_RETURN(draft_->roughness, Number());
+      PLEINAIR_ASSIGN_OR_RETURN(draft_->roughness, Number(keyword));
     } else if (keyword == "Pm") {
-      PLEINAIR_ASSIGN_OR_RETURN(const float metallic, Number());
+      PLEINAIR_ASSIGN_OR_RETURN(const float metallic, Number(keyword));
       material.metallic = std::clamp(metallic, 0.0F, 1.0F);
       draft_->has_metallic = true;
     } else if (keyword == "Pc" || keyword == "Pcr") {
-      PLEINAIR_ASSIGN_OR_RETURN(const float value, Number());
+      PLEINAIR_ASSIGN_OR_RETURN(const float value, Number(keyword));
       MaterialLayers& layers = material.detail.layers;
       (keyword == "Pc" ? layers.clearcoat : layers.clearcoat_roughness) =
           std::clamp(value, 0.0F, 1.0F);
     } else if (keyword == "Ps") {
-      PLEINAIR_ASSIGN_OR_RETURN(auto color, Color());
+      PLEINAIR_ASSIGN_OR_RETURN(auto color, Color(keyword));
       for (float& value : color) value = std::clamp(value, 0.0F, 1.0F);
       material.detail.layers.sheen_color = color;
     } else if (keyword == "Ke") {
-      PLEINAIR_ASSIGN_OR_RETURN(auto emission, Color());
-      for (float& value : emission) value = std::max(value, 0.0F);
+      PLEINAIR_ASSIGN_OR_RETURN(const auto emission, Color(keyword));
       material.detail.emission.luminance_cd_m2 = emission;
       draft_->has_emission = true;
     } else if (keyword == "d" || keyword == "Tr") {
       if (lines_.Rest().starts_with("-halo")) lines_.Word();
-      PLEINAIR_ASSIGN_OR_RETURN(const float value, Number());
+      PLEINAIR_ASSIGN_OR_RETURN(const float value, Number(keyword));
       const float opacity = keyword == "d" ? value : 1.0F - value;
       // Programs that confuse Tr with d write 0 for opaque materials. Invisible materials do not
       // occur.
@@ -125,7 +171,7 @@ class MtlParser {
         material.alpha = Material::Alpha::kBlended;
       }
     } else if (keyword == "illum") {
-      PLEINAIR_ASSIGN_OR_RETURN(const float illumination, Number());
+      PLEINAIR_ASSIGN_OR_RETURN(const float illumination, Number(keyword));
       draft_->illumination = static_cast<int>(illumination);
     } else if (keyword.starts_with("map_") || keyword == "bump" || keyword == "norm") {
       return PictureStatement(keyword);
@@ -191,7 +237,7 @@ class MtlParser {
         return Fail("unknown texture option " + Quoted(option));
       }
       if (option == "-bm") {
-        PLEINAIR_ASSIGN_OR_RETURN(picture.bump, Number());
+        PLEINAIR_ASSIGN_OR_RETURN(picture.bump, Number(option));
         continue;
       }
       for (int i = 0; i < found->second; ++i) lines_.Word();
@@ -285,7 +331,7 @@ class MtlParser {
     if (draft_->exponent) {
       // Blinn–Phong exponent to GGX roughness: alpha² = 2/(n+2), alpha = roughness²
       // (Karis 2013, "Specular BRDF Reference").
-      const float exponent = std::max(0.0F, *draft_->exponent);
+      const float exponent = *draft_->exponent;
       material.roughness = std::pow(2.0F / (exponent + 2.0F), 0.25F);
     }
     MaterialLayers& layers = material.detail.layers;
@@ -302,6 +348,7 @@ class MtlParser {
   const ObjCompanions& companions_;
   Model* model_;
   std::optional<Draft> draft_;
+  bool has_material_ = false;
   std::map<std::string, int> textures_;  ///< By name and use.
 };
 

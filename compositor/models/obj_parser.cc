@@ -78,7 +78,9 @@ class ObjParser {
   Result<Model> Parse() {
     while (lines_.Next()) PLEINAIR_RETURN_IF_ERROR(Statement(lines_.Word()));
     if (model_.meshes.empty()) {
-      return InputError(file_.string(), "has no faces", "is it a Wavefront OBJ, cut short?");
+      return InputError(file_.string(),
+                        "has no faces: it is no model that is read, or is cut short",
+                        "name an OBJ or a glTF model");
     }
     for (Mesh& mesh : model_.meshes) {
       // Drops texture coordinates that no face of the mesh uses.

@@ -78,9 +78,22 @@ TEST(ModelCommand, RefusesBadModelsInOneLine) {
       "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"children\":"
       "[0]}]}",
       "a.gltf", "contains itself");
+  refuse("mtllib ../none.mtl\n", "a.obj", "lies outside the folder of the model that names it");
+  refuse("ply\nformat ascii 1.0\n", "a.ply", "is a PLY model, which is not read");
   ExpectRefused(RunPleinair({"model", "a.obj", "b.obj", "-o", "one.png"}), "name a folder");
   ExpectRefused(RunPleinair({"model", "a.obj", "-o", "one.jpg"}), "PNG");
   ExpectRefused(RunPleinair({"model", "a.obj", "--unit", "yd"}), "--unit");
+}
+
+TEST(ModelCommand, ReadsOutsideTheModelsFolderWhereAllowed) {
+  const TemporaryFolder folder;
+  fs::create_directory(folder / "inner");
+  WriteFile(folder / "a.mtl", "newmtl a\nKd 0.5\n");
+  WriteFile(folder / "inner/a.obj",
+            "mtllib ../a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n");
+  ExpectRefused(RunPleinair({"model", folder / "inner/a.obj"}),
+                "trust the model with --allow-outside");
+  EXPECT_EQ(RunPleinair({"model", folder / "inner/a.obj", "--allow-outside"}).exit_code, 0);
 }
 
 TEST(ModelCommand, ReadsTenThousandMaterials) {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "compositor/models/model.h"
+#include "compositor/models/model_files.h"
 #include "tests/compositor/models/model_files_made.h"
 #include "tests/compositor/models/triangle_file.h"
 
@@ -157,13 +158,22 @@ TEST(GltfModel, TakesNamesFromItsFolderButNoAbsoluteOnes) {
   };
   const std::filesystem::path before = std::filesystem::current_path();
   std::filesystem::current_path(folder.path());
-  // glTF 2.0, "URIs": relative paths, which may contain "..".
-  write("../data.bin");
-  EXPECT_TRUE(LoadModel(inner / "m.gltf"));
-  EXPECT_TRUE(LoadModel("inner/m.gltf"));
-  std::filesystem::current_path(inner);
+  // glTF 2.0, "URIs": relative paths, which may contain ".." and be percent-encoded.
+  std::filesystem::create_symlink(data, inner / "link.bin");
+  for (const char* uri : {"../data.bin", "%2e%2e/data.bin", "link.bin"}) {
+    write(uri);
+    for (const std::filesystem::path& model :
+         {inner / "m.gltf", std::filesystem::path("inner/m.gltf")}) {
+      const auto refused = LoadModel(model);
+      ASSERT_FALSE(refused) << uri;
+      EXPECT_THAT(refused.error().Message(), HasSubstr("lies outside the folder of the model"));
+      AllowFilesOutsideModels(true);
+      EXPECT_TRUE(LoadModel(model)) << uri;
+      AllowFilesOutsideModels(false);
+    }
+  }
+  write("inner/../data.bin");
   EXPECT_TRUE(LoadModel("m.gltf"));
-  std::filesystem::current_path(folder.path());
   // The file exists, and so does one of that name outside the folder.
   for (const std::string& uri : {data.string(), std::string("/data.bin")}) {
     write(uri);
@@ -172,6 +182,29 @@ TEST(GltfModel, TakesNamesFromItsFolderButNoAbsoluteOnes) {
     EXPECT_FALSE(LoadModel("./m.gltf")) << uri;
   }
   std::filesystem::current_path(before);
+}
+
+TEST(GltfModel, RefusesValuesThatTheLoaderPassesOver) {
+  const auto refused = [](const char* from, const char* to) {
+    const TriangleFile file;
+    const TemporaryFolder folder;
+    folder.Write("data.bin", file.Buffer());
+    std::string json = file.Json(R"("uri":"data.bin",)");
+    json.replace(json.find(from), std::string(from).size(), to);
+    const auto model = LoadModel(folder.Write("m.gltf", json));
+    return model ? std::string("no error") : model.error().Message();
+  };
+  EXPECT_EQ(refused("2.0", "2.0"), "no error");
+  EXPECT_THAT(refused("2.0", "9.9"), HasSubstr("is of glTF version 9.9; this program reads 2.0"));
+  EXPECT_THAT(refused(R"("version":"2.0")", R"("version":"2.1","minVersion":"2.1")"),
+              HasSubstr("version 2.1"));
+  EXPECT_THAT(refused(R"("scene":0)", R"("scene":99)"), HasSubstr("its scene 99 of 1"));
+  EXPECT_THAT(refused(R"("material":0)", R"("material":-5)"), HasSubstr("below zero"));
+  EXPECT_THAT(refused(R"({"mesh":0})", R"({"mesh":0,"matrix":[1]})"),
+              HasSubstr("node 0: has a matrix of 1 numbers, not 16"));
+  EXPECT_THAT(refused(R"({"mesh":0})", R"({"mesh":0,"rotation":[0,0,0,0]})"),
+              HasSubstr("quaternion is zero"));
+  EXPECT_THAT(refused("data.bin", R"(data.bin\u0000x)"), HasSubstr("NUL"));
 }
 
 TEST(GltfModel, RefusesExtensionsThatItWouldHaveToKnow) {

@@ -321,8 +321,53 @@ TEST(ObjModel, NamesFileAndLineOfBrokenStatements) {
   EXPECT_THAT(ErrorOf("mtllib gone.mtl\n"), HasSubstr("gone.mtl"));
 }
 
+TEST(ObjModel, RefusesMaterialValuesOutOfRangeAndNoise) {
+  const auto refused = [](const std::string& library) {
+    const TemporaryFolder folder;
+    folder.Write("m.mtl", library);
+    const auto model = LoadModel(
+        folder.Write("model.obj", std::string("mtllib m.mtl\n") + kSquare + "usemtl a\nf 1 2 3\n"));
+    return model ? std::string("no error") : model.error().Message();
+  };
+  EXPECT_EQ(refused("\xEF\xBB\xBFnewmtl a\nKd 1.001 0 0\nKs 2 2 2\nvray:glossy 1\n"), "no error");
+  EXPECT_THAT(refused("newmtl a\nKd -1 0 0\n"), HasSubstr("m.mtl:2: Kd -1 is outside 0 to 1"));
+  EXPECT_THAT(refused("newmtl a\nKd 204 204 204\n"), HasSubstr("Kd 204 is outside 0 to 1"));
+  EXPECT_THAT(refused("newmtl a\nNs -7\n"), HasSubstr("Ns -7 is outside"));
+  EXPECT_THAT(refused("newmtl a\nd 7\n"), HasSubstr("d 7 is outside"));
+  EXPECT_THAT(refused("\x01\x02\xFFnoise\n"), HasSubstr("no statement of a material library"));
+  EXPECT_THAT(refused("some words\n"), HasSubstr("defines no material"));
+}
+
+TEST(ObjModel, ReadsCompanionsOnlyFromItsFolder) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder.path() / "inner");
+  folder.Write("m.mtl", "newmtl a\n");
+  folder.Write("inner/n.mtl", "newmtl a\nmap_Kd ../../secret.png\n");
+  for (const char* library : {"../m.mtl", "n.mtl", "/etc/hostname"}) {
+    const auto model =
+        LoadModel(folder.Write("inner/model.obj", std::string("mtllib ") + library + "\n" +
+                                                      kSquare + "usemtl a\nf 1 2 3\n"));
+    ASSERT_FALSE(model) << library;
+    EXPECT_THAT(model.error().Message(), HasSubstr("lies outside the folder of the model"));
+  }
+}
+
+TEST(Model, NamesFormatsThatAreNotRead) {
+  const TemporaryFolder folder;
+  std::string stl(84 + 50, '\0');
+  stl[80] = 1;
+  for (const auto& [content, name] : {std::pair<std::string, const char*>{"ply\nformat", "a PLY"},
+                                      {"solid a\nfacet normal", "an STL"},
+                                      {stl, "an STL"},
+                                      {"Kaydara FBX Binary", "an FBX"}}) {
+    const auto model = LoadModel(folder.Write("model.any", content));
+    ASSERT_FALSE(model);
+    EXPECT_THAT(model.error().Message(), HasSubstr(std::string("is ") + name + " model"));
+  }
+}
+
 TEST(ObjModel, RefusesFilesWithoutFaces) {
-  EXPECT_THAT(ErrorOf(""), HasSubstr("no faces"));
+  EXPECT_THAT(ErrorOf(""), HasSubstr("is empty"));
   EXPECT_THAT(ErrorOf(kSquare), HasSubstr("no faces"));
   EXPECT_THAT(ErrorOf("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n"), HasSubstr("degenerate"));
   EXPECT_FALSE(LoadModel("/nowhere/model.obj"));
