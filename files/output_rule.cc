@@ -10,15 +10,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The folder that a command reads if it is given `input`: also that of a recording's description.
-fs::path FolderRead(const fs::path& input) {
-  std::error_code error;
-  if (fs::is_directory(input, error)) return fs::canonical(input, error);
-  const fs::path name = input.filename();
-  if (name != "recording.json" && name != "scene.json") return {};
-  return fs::canonical(input, error).parent_path();
-}
-
 bool IsInside(const fs::path& file, const fs::path& folder) {
   const auto [end, at] = std::mismatch(folder.begin(), folder.end(), file.begin(), file.end());
   return end == folder.end() && at != file.end();
@@ -46,8 +37,7 @@ Result<void> CheckNamedOutput(const std::string& option, const std::string& outp
       return InputError(output, "is the input itself, and would be overwritten",
                         "name another file to write");
     }
-    const fs::path folder = FolderRead(input);
-    if (!folder.empty() && IsInside(real, folder)) {
+    if (fs::is_directory(input, error) && IsInside(real, fs::canonical(input, error))) {
       return InputError(output,
                         "is a file in a folder that this command reads, and would be overwritten",
                         "name another file to write, or move that one away");

@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "base/atomic_file.h"
+#include "files/text_file.h"
 
 namespace pleinair::files {
 
@@ -21,6 +22,9 @@ Result<std::string> ReadTextFile(const std::string& path) {
   };
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> opened(nullptr, &std::fclose);
   if (!standard_input) {
+    // A named pipe might never be written to. Open descriptors are the shell's: <(command).
+    const bool is_open = path.starts_with("/dev/fd/") || path.starts_with("/proc/self/fd/");
+    if (!is_open) PLEINAIR_RETURN_IF_ERROR(CheckRegularFile(path));
     opened.reset(std::fopen(path.c_str(), "rb"));
     if (!opened) return fail(errno);
   }
@@ -29,6 +33,15 @@ Result<std::string> ReadTextFile(const std::string& path) {
   std::array<char, 1 << 16> block;
   while (const std::size_t read = std::fread(block.data(), 1, block.size(), file)) {
     text.append(block.data(), read);
+    if (std::memchr(block.data(), '\0', read) != nullptr) {
+      return InputError(TextFileName(path), "is not text: it holds a NUL byte", "name a CSV file");
+    }
+    if (text.size() > kMaxTableBytes) {
+      return InputError(TextFileName(path),
+                        "is longer than the " + std::to_string(kMaxTableBytes >> 20) +
+                            " MiB that a table may have",
+                        "divide the table");
+    }
   }
   if (std::ferror(file) != 0) return fail(errno);
   return text;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -10,7 +11,11 @@
 
 namespace pleinair::files {
 
-/// Reads a whole text file; "-" is standard input.
+/// Size limit of a table: room for ten million rows.
+constexpr std::size_t kMaxTableBytes = std::size_t{1} << 30;
+
+/// Reads a whole text file; "-" is standard input. Errors (input): a named file that is no regular
+/// file, more than kMaxTableBytes, a NUL byte.
 Result<std::string> ReadTextFile(const std::string& path);
 
 /// The name of that file in error messages.

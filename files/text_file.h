@@ -13,7 +13,10 @@ constexpr std::size_t kMaxDescriptionBytes = std::size_t{16} << 20;
 /// Size limit of a calibration: a page of numbers, or a scene.json with its poses.
 constexpr std::size_t kMaxCalibrationBytes = std::size_t{4} << 20;
 
-/// Reads all bytes of a regular file of at most `max_bytes`. Errors: missing, a folder, not
+/// Error (input): it is no regular file, nor a link to one; says what it is instead.
+Result<void> CheckRegularFile(const std::filesystem::path& file);
+
+/// Reads all bytes of a regular file of at most `max_bytes`. Errors: no regular file, not
 /// readable, empty, too large.
 Result<std::string> ReadWholeFile(const std::filesystem::path& file, std::size_t max_bytes);
 

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <functional>
@@ -154,6 +155,29 @@ TEST(BadInput, UsageErrorsPointToTheHelp) {
   ExpectRefused(RunPleinair({"replay"}), "pleinair replay --help");
   ExpectRefused(RunPleinair({"fly"}), "pleinair --help");
   ExpectRefused(RunPleinair({"replay", "x", "-o", "y", "--size", "big"}), "1280x720");
+}
+
+TEST(BadInput, GroupsOfCommandsShowTheirOwnExamples) {
+  for (const char* group : {"path", "report", "bench"}) {
+    const RunResult help = RunPleinair({group, "--help"});
+    EXPECT_THAT(help.out, HasSubstr(std::string("  pleinair ") + group + " "));
+    EXPECT_THAT(help.out, testing::Not(HasSubstr("pleinair doctor")));
+  }
+}
+
+TEST(BadInput, TablesThatNeverEndAreRefused) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+  ExpectRefused(RunPleinair({"sun", "--csv", "/dev/zero"}), "/dev/zero: is a device, not a file");
+  ExpectRefused(RunPleinair({"sky", "--sun", "180,30", "--csv", "/dev/zero"}),
+                "/dev/zero: is a device, not a file");
+  ExpectRefused(RunPleinair({"sun", "--csv", folder / "pipe"}), "pipe: is a pipe, not a file");
+}
+
+TEST(BadInput, AFolderInPlaceOfARunIsRefused) {
+  const TemporaryFolder folder;
+  fs::create_directories(folder / "out/run.json");
+  ExpectRefused(RunPleinair({"report", "merge", folder / "out"}), "there is no accuracy run");
 }
 
 TEST(BadInput, OptionsOfDaylightCoefficientsAreRefusedWhereNoneAreTraced) {
