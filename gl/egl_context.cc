@@ -3,8 +3,10 @@
 #include <dlfcn.h>
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
+#include <sys/resource.h>
 
 #include <mutex>
+#include <string>
 #include <utility>
 
 namespace pleinair::gl {
@@ -13,6 +15,22 @@ namespace {
 constexpr const char* kRemedy =
     "install the Debian packages libegl1, libgl1 and libgl1-mesa-dri (Mesa's software renderer "
     "needs no GPU)";
+
+// With 600 to 900 MB, Mesa's software renderer starts and then ends the process by a signal.
+constexpr rlim_t kMinAddressSpace_bytes = rlim_t{1} << 30;
+
+Result<void> CheckAddressSpace() {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY ||
+      limit.rlim_cur >= kMinAddressSpace_bytes) {
+    return {};
+  }
+  return SystemError("OpenGL",
+                     "this process may use " + std::to_string(limit.rlim_cur >> 20) +
+                         " MiB of address space, and drawing needs " +
+                         std::to_string(kMinAddressSpace_bytes >> 20),
+                     "raise the limit (ulimit -v)");
+}
 
 bool LibraryPresent(const char* name) {
   void* handle = dlopen(name, RTLD_LAZY | RTLD_LOCAL);
@@ -162,6 +180,7 @@ EglContext& EglContext::operator=(EglContext&&) noexcept = default;
 EglContext::~EglContext() = default;
 
 Result<EglContext> EglContext::Create(const EglContextOptions& options) {
+  PLEINAIR_RETURN_IF_ERROR(CheckAddressSpace());
   // libepoxy aborts the process if a library is missing, so check first.
   if (!LibraryPresent("libEGL.so.1")) {
     return SystemError("OpenGL", "the library libEGL.so.1 is not installed", kRemedy);

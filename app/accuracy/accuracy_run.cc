@@ -117,6 +117,7 @@ Result<RecordPart> MeasureRecordingChunk(const AccuracyChunk& chunk, RecordPart 
       part.pictures = *std::move(pictures);
     } else {
       part.skipped = pictures.error().Message();
+      part.skipped_kind = pictures.error().kind;
     }
     return part;
   }
@@ -126,14 +127,16 @@ Result<RecordPart> MeasureRecordingChunk(const AccuracyChunk& chunk, RecordPart 
     SortByFrame(&part.records);
   } else {
     part.skipped = records.error().Message();
+    part.skipped_kind = records.error().kind;
   }
   return part;
 }
 
 Result<RecordPart> MeasureChunk(const AccuracyChunk& chunk, std::int64_t number,
                                 const AccuracyConfig& config, std::vector<Station>* stations) {
-  RecordPart part{
-      .chunk = number, .records = {}, .pictures = {}, .skipped = {}, .machine = MachineName()};
+  RecordPart part;
+  part.chunk = number;
+  part.machine = MachineName();
   if (chunk.recording) return MeasureRecordingChunk(chunk, std::move(part), config);
   for (Station& station : *stations) {
     std::int64_t frame = FirstFrameOf(number);
@@ -205,6 +208,7 @@ Result<RunOutcome> MeasureShard(const RecordParts& parts, const Shard& shard, in
       if (part->skipped.empty()) {
         ++outcome.measured;
       } else {
+        if (part->skipped_kind == ErrorKind::kSystem) outcome.skipped_kind = ErrorKind::kSystem;
         skipped.emplace(number, std::move(part->skipped));
       }
       bar.Advance();

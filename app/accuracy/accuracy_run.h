@@ -30,10 +30,11 @@ std::vector<AccuracyChunk> PlanChunks(const AccuracyConfig& config);
 constexpr std::int64_t FirstFrameOf(std::int64_t chunk) { return chunk << 20; }
 
 struct RunOutcome {
-  std::int64_t chunks = 0;                   ///< In this shard.
-  std::int64_t measured = 0;                 ///< Measured now; the others existed.
-  std::vector<std::string> skipped;          ///< Messages about chunks that could not be measured.
-  std::set<std::string> skipped_recordings;  ///< Recordings of these messages.
+  std::int64_t chunks = 0;           ///< In this shard.
+  std::int64_t measured = 0;         ///< Measured now; the others existed.
+  std::vector<std::string> skipped;  ///< Messages about chunks that could not be measured.
+  ErrorKind skipped_kind = ErrorKind::kInput;  ///< kSystem: one or more for that reason.
+  std::set<std::string> skipped_recordings;    ///< Recordings of these messages.
 };
 
 /// Measures the missing chunks of a shard, with `threads` threads.

@@ -42,6 +42,8 @@ void TellHead(Visitor& visit, Head& head) {
 
 /// Reads the file's bytes; nothing if it cannot be read.
 std::optional<std::string> ReadAll(const fs::path& file) {
+  std::error_code error;
+  if (!fs::is_regular_file(file, error)) return std::nullopt;  // Reading a folder throws.
   std::ifstream in(file, std::ios::binary);
   if (!in) return std::nullopt;
   return std::string(std::istreambuf_iterator<char>(in), {});
@@ -160,11 +162,10 @@ Result<std::optional<RecordPart>> RecordParts::Load(std::int64_t chunk) const {
     return InputError(FileOf(chunk).string(), "belongs to a run of another configuration",
                       "remove it and run again");
   }
-  RecordPart part{.chunk = chunk,
-                  .records = {},
-                  .pictures = {},
-                  .skipped = head->skipped,
-                  .machine = head->machine};
+  RecordPart part;
+  part.chunk = chunk;
+  part.skipped = head->skipped;
+  part.machine = head->machine;
   while (part.records.size() < head->records && std::getline(lines, line)) {
     auto record = ParseRecord(line, FileOf(chunk).string());
     if (!record) return std::nullopt;

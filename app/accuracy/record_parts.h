@@ -19,7 +19,8 @@ struct RecordPart {
   std::vector<accuracy::FrameRecord> records;
   std::vector<LightPicture> pictures;
   std::string skipped;  ///< Why it could not be measured; empty if it could.
-  std::string machine;  ///< That measured it.
+  ErrorKind skipped_kind = ErrorKind::kSystem;  ///< Of `skipped`; not stored.
+  std::string machine;                          ///< That measured it.
 };
 
 /// Storage of a run's results: one file per chunk, written atomically. An interrupted run continues

@@ -157,7 +157,7 @@ TEST(Accuracy, GoesOnBehindARecordingThatIsCorrupt) {
   const std::vector<std::string> command{"accuracy",   folder / "bad", folder / "good",
                                          "--no-light", "-o",           folder / "out"};
   const RunResult run = RunPleinair(command);
-  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_EQ(run.exit_code, 2);  // The input is wrong.
   EXPECT_THAT(run.err, HasSubstr("0001.jpg"));
   EXPECT_THAT(run.err, HasSubstr("1 of 2 recordings could not be measured"));
   json report = json::parse(ReadFile(folder / "out/report.json"));

@@ -2,7 +2,10 @@
 
 #include <epoxy/gl.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
+#include <cstdio>
 #include <cstdlib>
 #include <thread>
 
@@ -24,6 +27,20 @@ TEST(EglContext, GivesOpenGl45CoreWithoutADisplay) {
   EXPECT_TRUE(profile & GL_CONTEXT_CORE_PROFILE_BIT);
   EXPECT_FALSE(context->info().renderer.empty());
   EXPECT_FALSE(context->info().platform.empty());
+}
+
+TEST(EglContextDeathTest, NeedsAddressSpaceAndSaysHowMuch) {
+  EXPECT_EXIT(
+      {
+        rlimit limit{};
+        getrlimit(RLIMIT_AS, &limit);
+        limit.rlim_cur = rlim_t{800} << 20;
+        setrlimit(RLIMIT_AS, &limit);
+        const Result<EglContext> context = EglContext::Create();
+        std::fputs(context ? "no error" : context.error().what.c_str(), stderr);
+        _exit(context ? 0 : 3);
+      },
+      ::testing::ExitedWithCode(3), "800 MiB of address space, and drawing needs 1024");
 }
 
 TEST(EglContext, CollectsTheDriversErrors) {
