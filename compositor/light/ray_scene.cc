@@ -2,10 +2,17 @@
 
 #include <embree3/rtcore.h>
 
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace pleinair::compositor {
 namespace {
@@ -174,6 +181,54 @@ class EmbreeScene : public RayScene {
   Scene phantoms_;
 };
 
+// Copies of one triangle in the hierarchy. A ray that meets them intersects each: 10,000 copies
+// took minutes. Both sides of leaves and doubled exports are a few.
+constexpr int kMaxCopies = 16;
+
+/// Leaves out the copies of triangles beyond kMaxCopies, counted over several meshes.
+class CopyFilter {
+ public:
+  explicit CopyFilter(std::size_t triangles)
+      : counts_(std::bit_ceil(std::max<std::size_t>(64, 4 * triangles))) {}
+
+  /// Sets the corners of copies beyond the limit to no vertex; Embree ignores such triangles.
+  void Apply(const RayMesh& mesh, std::uint32_t* indices) {
+    constexpr std::uint32_t kNoVertex = ~0U;
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+      std::uint64_t sum = 0;  // The same for every order of the corners.
+      Corners corners;
+      for (std::size_t c = 0; c < 3; ++c) {
+        std::memcpy(corners[c].data(), mesh.positions[mesh.indices[i + c]].data(),
+                    sizeof(Corners::value_type));
+        sum += HashOf(corners[c]);
+      }
+      std::uint8_t& count = counts_[sum & (counts_.size() - 1)];
+      if (count < kMaxCopies) {
+        ++count;
+        continue;
+      }
+      // Exact only here: different triangles may share a count.
+      std::sort(corners.begin(), corners.end());
+      if (++copies_[corners] > kMaxCopies) std::fill_n(indices + i, 3, kNoVertex);
+    }
+  }
+
+ private:
+  using Corners = std::array<std::array<std::uint32_t, 3>, 3>;
+
+  static std::uint64_t HashOf(const std::array<std::uint32_t, 3>& corner) {
+    std::uint64_t hash = 0x9E3779B97F4A7C15U;
+    for (const std::uint32_t part : corner) {
+      hash = (hash ^ part) * 0xBF58476D1CE4E5B9U;
+      hash ^= hash >> 31;
+    }
+    return hash;
+  }
+
+  std::vector<std::uint8_t> counts_;
+  std::map<Corners, int> copies_;
+};
+
 }  // namespace
 
 Result<std::unique_ptr<RayScene>> RayScene::Create(const std::vector<RayMesh>& meshes,
@@ -191,6 +246,10 @@ Result<std::unique_ptr<RayScene>> RayScene::Create(const std::vector<RayMesh>& m
     // Robust: no ray slips through the edge between two triangles.
     rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
   }
+  std::size_t triangles = 0;
+  for (const RayMesh& mesh : meshes) triangles += mesh.indices.size() / 3;
+  // Apart: a copy among the objects does not stand for one among the phantoms.
+  CopyFilter object_copies(triangles), phantom_copies(triangles);
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     const RayMesh& mesh = meshes[i];
     if (mesh.indices.empty()) continue;
@@ -207,6 +266,8 @@ Result<std::unique_ptr<RayScene>> RayScene::Create(const std::vector<RayMesh>& m
     }
     std::memcpy(positions, mesh.positions.data(), mesh.positions.size() * 3 * sizeof(float));
     std::memcpy(indices, mesh.indices.data(), mesh.indices.size() * sizeof(std::uint32_t));
+    (mesh.is_phantom ? phantom_copies : object_copies)
+        .Apply(mesh, static_cast<std::uint32_t*>(indices));
     rtcCommitGeometry(geometry.get());
     rtcAttachGeometryByID(everything.get(), geometry.get(), static_cast<unsigned>(i));
     if (mesh.is_phantom) {
