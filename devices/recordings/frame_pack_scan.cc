@@ -74,7 +74,7 @@ class RecordSearch {
   std::int64_t budget_;  ///< Bytes that failed searches may still read.
 };
 
-std::string Seconds(std::int64_t ns) {
+std::string SecondsText(std::int64_t ns) {
   std::string text = std::to_string(static_cast<double>(ns) * 1e-9);
   text.erase(text.size() - 4);  // Hundredths.
   return text + " s";
@@ -118,8 +118,8 @@ std::vector<std::string> FramePackScan::Damage(const fs::path& file) const {
     tell(place.at - at, i == 0 ? "before the first whole frame are damaged"
                                : "before frame " + std::to_string(i) +
                                      " are damaged: no whole frame between " +
-                                     Seconds(places[i - 1].timestamp_ns - start_ns) + " and " +
-                                     Seconds(place.timestamp_ns - start_ns));
+                                     SecondsText(places[i - 1].timestamp_ns - start_ns) + " and " +
+                                     SecondsText(place.timestamp_ns - start_ns));
     at = place.at + place.bytes();
   }
   tell(file_bytes - at, "behind the last whole frame, " + std::to_string(places.size() - 1) +
