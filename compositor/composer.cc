@@ -117,6 +117,7 @@ class GlComposer : public Composer {
   void AssumeUnmodelledShadows(bool look) override { unmodelled_.assume_unmodelled = look; }
   Result<void> SetSunTransmittance(
       const std::shared_ptr<const SunTransmittanceMap>& sun_transmittance) override;
+  Result<void> SkipImage(const Transform<Camera, Marker>& camera_from_marker) override;
   Result<void> SetCameraLook(const std::optional<CameraLook>& look) override {
     PLEINAIR_RETURN_IF_ERROR(context_.MakeCurrent());
     look_ = look;
@@ -135,6 +136,7 @@ class GlComposer : public Composer {
   /// Programs for the current shadow maps and the frame's airlight.
   Result<const SurfacePrograms*> ProgramsFor(const FrameUniforms& frame);
   Result<void> SortSurfaces();
+  Result<shadows::View> UpdateScene(const Transform<Camera, Marker>& camera_from_marker);
   Result<void> DrawScene(const SurfacePrograms& programs, const shadows::View& view,
                          const FrameUniforms& frame);
   FrameUniforms FrameOf(const shadows::View& view,
@@ -399,15 +401,8 @@ FrameUniforms GlComposer::FrameOf(const shadows::View& view,
   return frame;
 }
 
-Result<RgbImage> GlComposer::Compose(ImageView<const std::uint8_t> rgb,
-                                     const Transform<Camera, Marker>& camera_from_marker,
-                                     LinearRgb exposure_scale) {
-  CHECK_EQ(rgb.width(), camera_.width);
-  CHECK_EQ(rgb.height(), camera_.height);
-  CHECK_EQ(rgb.channels(), 3);
-  CHECK_EQ(rgb.stride(), static_cast<std::ptrdiff_t>(rgb.width()) * 3);
-  PLEINAIR_RETURN_IF_ERROR(context_.MakeCurrent());
-  canvas_.picture.SetBackground(rgb);
+/// Brings shapes and shadow maps up to date, and classifies the surfaces by them.
+Result<shadows::View> GlComposer::UpdateScene(const Transform<Camera, Marker>& camera_from_marker) {
   if (changing_ && changing_->Update()) {
     PLEINAIR_RETURN_IF_ERROR(
         surfaces_.SetShapes(changing_->meshes(), changing_->first_body(), sky_.mix));
@@ -419,6 +414,26 @@ Result<RgbImage> GlComposer::Compose(ImageView<const std::uint8_t> rgb,
     PLEINAIR_RETURN_IF_ERROR(shadows_.Update(surfaces_, {sky_.to_sun}, view));
   }
   PLEINAIR_RETURN_IF_ERROR(SortSurfaces());
+  return view;
+}
+
+Result<void> GlComposer::SkipImage(const Transform<Camera, Marker>& camera_from_marker) {
+  PLEINAIR_RETURN_IF_ERROR(context_.MakeCurrent());
+  PLEINAIR_RETURN_IF_ERROR(UpdateScene(camera_from_marker));
+  canvas_.picture.Skip();
+  return {};
+}
+
+Result<RgbImage> GlComposer::Compose(ImageView<const std::uint8_t> rgb,
+                                     const Transform<Camera, Marker>& camera_from_marker,
+                                     LinearRgb exposure_scale) {
+  CHECK_EQ(rgb.width(), camera_.width);
+  CHECK_EQ(rgb.height(), camera_.height);
+  CHECK_EQ(rgb.channels(), 3);
+  CHECK_EQ(rgb.stride(), static_cast<std::ptrdiff_t>(rgb.width()) * 3);
+  PLEINAIR_RETURN_IF_ERROR(context_.MakeCurrent());
+  canvas_.picture.SetBackground(rgb);
+  PLEINAIR_ASSIGN_OR_RETURN(const shadows::View view, UpdateScene(camera_from_marker));
   const FrameUniforms frame = FrameOf(view, camera_from_marker, exposure_scale);
   PLEINAIR_ASSIGN_OR_RETURN(const SurfacePrograms* programs, ProgramsFor(frame));
   PLEINAIR_RETURN_IF_ERROR(DrawScene(*programs, view, frame));

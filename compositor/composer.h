@@ -90,6 +90,10 @@ class Composer {
   /// again. Noise below two steps of 8 bits is omitted.
   virtual Result<void> SetCameraLook(const std::optional<CameraLook>& look) = 0;
 
+  /// Updates all that Compose() carries to later images, and draws none. Later images have the same
+  /// bytes as after Compose(). Errors as Compose().
+  virtual Result<void> SkipImage(const Transform<Camera, Marker>& camera_from_marker) = 0;
+
   /// Returns the image with the virtual objects in it. `exposure_scale`: display-linear value per
   /// radiance and channel (ExposureEstimate). Pixels that no virtual object affects keep their
   /// bytes.

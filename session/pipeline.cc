@@ -193,6 +193,21 @@ Result<ComposedFrame> Pipeline::Compose(ImageView<const std::uint8_t> rgb,
   return composed;
 }
 
+Result<ComposedFrame> Pipeline::Advance(ImageView<const std::uint8_t> rgb,
+                                        const std::optional<CameraPose>& pose, UtcTime time) {
+  ComposedFrame advanced;
+  advanced.pose = pose;
+  if (!pose) return advanced;
+  MeterLightOn(pose->marker);
+  const Observation& seen = pose->observation;
+  PLEINAIR_RETURN_IF_ERROR(renderer_->Advance(rgb, seen.camera_from_marker, time, FollowedIn(seen),
+                                              seen.source == PoseSource::kMarker));
+  if (!renderer_->DrawsObjects()) return advanced;
+  advanced.light = renderer_->light();
+  advanced.times = renderer_->times();
+  return advanced;
+}
+
 FollowedLight Pipeline::FollowedIn(const Observation& seen) const {
   const LightFollower* follower = renderer_->light_follower();
   if (!follows_light_ || follower == nullptr) return {};

@@ -147,6 +147,11 @@ class Pipeline {
   Result<ComposedFrame> Compose(ImageView<const std::uint8_t> rgb,
                                 const std::optional<CameraPose>& pose, UtcTime time);
 
+  /// Updates all that Compose() carries to later frames, and draws nothing: the result has no
+  /// image. For frames that were composed before.
+  Result<ComposedFrame> Advance(ImageView<const std::uint8_t> rgb,
+                                const std::optional<CameraPose>& pose, UtcTime time);
+
   /// Time at which a frame of a recording was taken: the start time of the scene plus the time
   /// stamp, nanoseconds since the start of the recording.
   UtcTime MomentOf(std::int64_t timestamp_ns) const;

@@ -229,7 +229,8 @@ Result<void> EstimateLight(Pipeline& pipeline, devices::Recording recording,
 }
 
 Result<void> ComposeFrames(Pipeline& pipeline, devices::Recording recording,
-                           const ComposedFrameCallback& take, const PassMonitor& monitor) {
+                           const ComposedFrameCallback& take, const PassMonitor& monitor,
+                           const EarlierImage& earlier) {
   Pass pass(monitor);
   const std::string name = recording.path.string();
   const std::int64_t count = pipeline.tracks().frames();
@@ -249,9 +250,12 @@ Result<void> ComposeFrames(Pipeline& pipeline, devices::Recording recording,
     while (at != path.end() && at->frame_index < frame->index) ++at;
     std::optional<CameraPose> pose;
     if (at != path.end() && at->frame_index == frame->index) pose = CameraPose{*marker, *at};
-    PLEINAIR_ASSIGN_OR_RETURN(
-        ComposedFrame composed,
-        pipeline.Compose(frame->rgb.view(), pose, pipeline.MomentOf(frame->timestamp_ns)));
+    std::optional<RgbImage> image = earlier ? earlier(frame->index) : std::nullopt;
+    const UtcTime moment = pipeline.MomentOf(frame->timestamp_ns);
+    PLEINAIR_ASSIGN_OR_RETURN(ComposedFrame composed,
+                              image ? pipeline.Advance(frame->rgb.view(), pose, moment)
+                                    : pipeline.Compose(frame->rgb.view(), pose, moment));
+    if (image) composed.image = *std::move(image);
     AddTimes(composed, &pass.times());
     PLEINAIR_RETURN_IF_ERROR(take(*frame, std::move(composed)));
   }

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "base/image.h"
 #include "base/stage_times.h"
 #include "devices/frame.h"
 #include "devices/recordings/recording.h"
@@ -29,6 +30,9 @@ using TrackedFrameCallback = std::function<Result<void>(const devices::Frame&, T
 /// error stops the pass.
 using ComposedFrameCallback = std::function<Result<void>(const devices::Frame&, ComposedFrame)>;
 
+/// Returns the composed image of a frame where an earlier pass, which did not end, composed it.
+using EarlierImage = std::function<std::optional<RgbImage>(std::int64_t frame_index)>;
+
 /// First pass: detects the markers of all frames and estimates their poses. Reading, detection and
 /// pose estimation run at the same time, with about a dozen frames in memory. `take` is called in
 /// the order of the frames, on a thread of the pass.
@@ -48,11 +52,13 @@ Result<void> EstimateLight(Pipeline& pipeline, devices::Recording recording,
                            const PassMonitor& monitor = {});
 
 /// Last pass: composes every frame. `take` is called in the order of the frames, on the calling
-/// thread. A frame without a pose stays unchanged.
+/// thread. A frame without a pose stays unchanged. Frames of which `earlier` has the image are not
+/// drawn again; all others have the same bytes as in a pass without it.
 /// Errors: an unreadable frame, drawing, a recording that changed since the first pass, the errors
 /// of `take` and of the monitor.
 Result<void> ComposeFrames(Pipeline& pipeline, devices::Recording recording,
-                           const ComposedFrameCallback& take, const PassMonitor& monitor = {});
+                           const ComposedFrameCallback& take, const PassMonitor& monitor = {},
+                           const EarlierImage& earlier = {});
 
 /// Runs all three passes over a recording that has a scene of its own, as `pleinair replay` does.
 /// Errors: those of OpenRecording(), Pipeline::Create() and the passes; a recording without a

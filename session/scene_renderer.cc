@@ -300,12 +300,11 @@ Result<void> SceneRenderer::UpdateCameraLook(ImageView<const std::uint8_t> rgb,
   return composer_->SetCameraLook(look);
 }
 
-Result<RgbImage> SceneRenderer::Render(ImageView<const std::uint8_t> rgb,
-                                       const Transform<Camera, Marker>& camera_from_marker,
-                                       UtcTime time, const compositor::MarkerVisibility& cover,
-                                       const FollowedLight& followed, bool shows_marker) {
+Result<void> SceneRenderer::Follow(ImageView<const std::uint8_t> rgb,
+                                   const Transform<Camera, Marker>& camera_from_marker,
+                                   UtcTime time, const FollowedLight& followed, bool shows_marker) {
   times_ = {};
-  if (!composer_) return CopyImage(rgb);
+  if (!composer_) return {};
   auto start = Clock::now();
   PLEINAIR_RETURN_IF_ERROR(UpdateLight(time.PlusSeconds(edited_.later_s)));
   PLEINAIR_RETURN_IF_ERROR(composer_->SetLightMix(light_->in_use()->meshes, followed.mix));
@@ -321,7 +320,24 @@ Result<RgbImage> SceneRenderer::Render(ImageView<const std::uint8_t> rgb,
   if (marker) PLEINAIR_RETURN_IF_ERROR(UpdateCameraLook(rgb, *marker));
   SummarizeLight(followed);
   times_.meter_ms = MillisecondsSince(start);
-  start = Clock::now();
+  return {};
+}
+
+Result<void> SceneRenderer::Advance(ImageView<const std::uint8_t> rgb,
+                                    const Transform<Camera, Marker>& camera_from_marker,
+                                    UtcTime time, const FollowedLight& followed,
+                                    bool shows_marker) {
+  PLEINAIR_RETURN_IF_ERROR(Follow(rgb, camera_from_marker, time, followed, shows_marker));
+  return composer_ ? composer_->SkipImage(camera_from_marker) : Result<void>();
+}
+
+Result<RgbImage> SceneRenderer::Render(ImageView<const std::uint8_t> rgb,
+                                       const Transform<Camera, Marker>& camera_from_marker,
+                                       UtcTime time, const compositor::MarkerVisibility& cover,
+                                       const FollowedLight& followed, bool shows_marker) {
+  PLEINAIR_RETURN_IF_ERROR(Follow(rgb, camera_from_marker, time, followed, shows_marker));
+  if (!composer_) return CopyImage(rgb);
+  const auto start = Clock::now();
   PLEINAIR_ASSIGN_OR_RETURN(RgbImage composed,
                             composer_->Compose(rgb, camera_from_marker, summary_.exposure_scale));
   compositor::PutInFront(rgb, compositor::MaskOccluder(rgb, camera_, camera_from_marker, cover),

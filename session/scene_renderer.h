@@ -127,8 +127,14 @@ class SceneRenderer {
                           const compositor::MarkerVisibility& cover = {},
                           const FollowedLight& followed = {}, bool shows_marker = true);
 
+  /// Updates all that Render() carries to later frames, and draws nothing. Later images have the
+  /// same bytes as after Render().
+  Result<void> Advance(ImageView<const std::uint8_t> rgb,
+                       const Transform<Camera, Marker>& camera_from_marker, UtcTime time,
+                       const FollowedLight& followed = {}, bool shows_marker = true);
+
   const LightSummary& light() const { return summary_; }
-  /// Of the last Render().
+  /// Of the last Render() or Advance().
   const RenderTimes& times() const { return times_; }
 
  private:
@@ -145,6 +151,10 @@ class SceneRenderer {
   void MoveObjects();
   Result<void> UpdateLight(UtcTime time);
   void SummarizeLight(const FollowedLight& followed);
+  /// Brings light, animations, exposure and camera look to a frame.
+  Result<void> Follow(ImageView<const std::uint8_t> rgb,
+                      const Transform<Camera, Marker>& camera_from_marker, UtcTime time,
+                      const FollowedLight& followed, bool shows_marker);
   Result<void> UpdateCameraLook(ImageView<const std::uint8_t> rgb,
                                 const Transform<Camera, Marker>& camera_from_marker);
   void UpdateExposureScale(ImageView<const std::uint8_t> rgb,

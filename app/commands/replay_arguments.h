@@ -31,7 +31,7 @@ struct ReplayArguments {
     std::optional<double> from_s, to_s;
   } range;
   struct Written {
-    bool frames = false, no_video = false;
+    bool frames = false, no_video = false, resume = false;
   } written;
   bool json = false;
   struct Research {

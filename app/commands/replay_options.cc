@@ -84,6 +84,9 @@ void AddReplayOptions(CLI::App& command, ReplayArguments& arguments) {
       ->needs(time_lapse)
       ->check(CLI::NonNegativeNumber);
   command.add_flag("--no-video", arguments.written.no_video, "Do not write composite.mp4");
+  command.add_flag("--resume", arguments.written.resume,
+                   "Keep unfinished outputs in the folder 'unfinished' of the output folder. The "
+                   "same command then goes on where a replay was ended");
   command.add_flag("--json", arguments.json, "Print a summary as one JSON object");
 }
 

@@ -15,6 +15,7 @@
 
 #include "app/options/picture_size.h"
 #include "app/options/shard_option.h"
+#include "app/output/resumption.h"
 #include "app/options/trajectory_options.h"
 #include "app/replay/output_names.h"
 #include "app/replay/report/report_json.h"
@@ -71,6 +72,7 @@ std::string CommandText(const ReplayArguments& arguments) {
   if (given.max_patches) text += " --light-patches " + std::to_string(*given.max_patches);
   if (given.as_described) text += " --light stated";
   if (given.fitted) text += " --light fitted";
+  if (light.changes == session::LightChangeMode::kHold) text += " --light-changes hold";
   if (!light.match_look) text += " --look clean";
   if (light.hands_in_front) text += " --hands";
   if (given.sun_to_sky) text += fmt::format(" --sun-to-sky {}", *given.sun_to_sky);
@@ -156,7 +158,13 @@ Result<void> Run(ReplayArguments& arguments) {
   const bool is_still = arguments.range.frame.has_value();
   options.write.frames = arguments.written.frames || is_still;
   options.write.video = !arguments.written.no_video && !is_still;
+  options.write.is_resumable = arguments.written.resume;
   options.command = CommandText(arguments);
+  if (arguments.written.resume && IsFinishedReplay(options.output, options.command)) {
+    std::cerr << OneLine(arguments.paths.output)
+              << " is finished already; without --resume it is composed anew\n";
+    return {};
+  }
   PLEINAIR_ASSIGN_OR_RETURN(const ReplayReport report, Replay(options));
   if (arguments.json) {
     std::cout << SummaryJson(report, options.output) << '\n';

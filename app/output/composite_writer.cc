@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "base/atomic_file.h"
 #include "export/images/image_writer.h"
 
 namespace pleinair::app {
@@ -19,9 +20,9 @@ void CompositeWriter::End() {
   if (thread_.joinable()) thread_.join();
 }
 
-Result<void> CompositeWriter::Add(std::int64_t index, std::int64_t timestamp_ns,
-                                  RgbImage composed) {
-  if (items_.Give({index, timestamp_ns, std::move(composed)})) return {};
+Result<void> CompositeWriter::Add(std::int64_t index, std::int64_t timestamp_ns, RgbImage composed,
+                                  bool is_written) {
+  if (items_.Give({index, timestamp_ns, std::move(composed), is_written})) return {};
   End();
   return result_;
 }
@@ -43,10 +44,14 @@ void CompositeWriter::Run() {
 }
 
 Result<void> CompositeWriter::Write(const Item& item) {
-  if (!pictures_.empty()) {
+  if (!pictures_.empty() && !item.is_written) {
     const std::filesystem::path file = pictures_ / fmt::format("{:04}.png", item.index);
-    PLEINAIR_RETURN_IF_ERROR(times_.Measure(
-        "write picture", [&] { return exports::WritePng(file, item.picture.view()); }));
+    const std::filesystem::path partial = TemporarySibling(file);
+    PLEINAIR_RETURN_IF_ERROR(times_.Measure("write picture", [&] {
+      return exports::WritePng(partial, item.picture.view()).and_then([&] {
+        return CommitFile(partial, file);
+      });
+    }));
   }
   if (!video_) return {};
   return times_.Measure("encode video",

@@ -26,7 +26,9 @@ class CompositeWriter {
   CompositeWriter& operator=(const CompositeWriter&) = delete;
 
   /// Takes the frames in order. Errors may belong to an earlier frame.
-  Result<void> Add(std::int64_t index, std::int64_t timestamp_ns, RgbImage composed);
+  /// `is_written`: its image file is there already.
+  Result<void> Add(std::int64_t index, std::int64_t timestamp_ns, RgbImage composed,
+                   bool is_written = false);
 
   /// Waits until everything is written and ends the video.
   Result<void> Finish();
@@ -39,6 +41,7 @@ class CompositeWriter {
     std::int64_t index = 0;
     std::int64_t timestamp_ns = 0;
     RgbImage picture;
+    bool is_written = false;
   };
 
   // Max. number of queued images.

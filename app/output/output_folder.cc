@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "app/output/earlier_replay.h"
+#include "app/output/resumption.h"
 #include "base/atomic_file.h"
 
 namespace pleinair::app {
@@ -21,6 +22,18 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kStagingPrefix = ".pleinair.part";  // Followed by the process id.
+
+/// Removes the files that a killed process was writing, which have hidden names.
+void RemovePartialFiles(const fs::path& folder) {
+  std::vector<fs::path> partial;
+  std::error_code error;
+  for (fs::recursive_directory_iterator it(folder, error), end; !error && it != end;
+       it.increment(error)) {
+    const std::string name = it->path().filename().string();
+    if (it->is_regular_file(error) && name.starts_with('.')) partial.push_back(it->path());
+  }
+  for (const fs::path& file : partial) fs::remove(file, error);
+}
 
 /// Removes staging folders of killed processes, also one with this process's id.
 void RemoveAbandonedStaging(const fs::path& folder) {
@@ -44,8 +57,9 @@ void RemoveAbandonedStaging(const fs::path& folder) {
 
 }  // namespace
 
-Result<OutputFolder> OutputFolder::Create(const fs::path& path) {
+Result<OutputFolder> OutputFolder::Create(const fs::path& path, bool is_resumable) {
   OutputFolder folder;
+  folder.is_resumable_ = is_resumable;
   std::error_code error;
   folder.path_ = fs::absolute(path, error).lexically_normal();
   if (!folder.path_.has_filename()) folder.path_ = folder.path_.parent_path();
@@ -71,9 +85,21 @@ Result<OutputFolder> OutputFolder::Create(const fs::path& path) {
                       "wait until it has ended, or name another folder with -o");
   }
   RemoveAbandonedStaging(folder.path_);
-  const fs::path staging = folder.path_ / (std::string(kStagingPrefix) + std::to_string(getpid()));
-  if (!fs::create_directory(staging, error)) {
+  const fs::path staging =
+      folder.path_ / (is_resumable ? std::string(kUnfinishedFolder)
+                                   : std::string(kStagingPrefix) + std::to_string(getpid()));
+  const bool is_there = is_resumable && fs::exists(staging, error);
+  if (is_there && !fs::exists(staging / kResumeFolder, error) && !fs::is_empty(staging, error)) {
+    return InputError(staging.string(), "is there already, and no replay wrote it",
+                      "name another folder with -o, or move it away");
+  }
+  if (!is_there && !fs::create_directory(staging, error)) {
     return tl::make_unexpected(WriteError(path, error ? error.value() : EEXIST));
+  }
+  if (is_resumable) {
+    fs::create_directory(staging / kResumeFolder, error);
+    if (error) return tl::make_unexpected(WriteError(staging, error.value()));
+    RemovePartialFiles(staging);
   }
   folder.staging_ = staging;
   return folder;
@@ -82,6 +108,7 @@ Result<OutputFolder> OutputFolder::Create(const fs::path& path) {
 OutputFolder::OutputFolder(OutputFolder&& other) noexcept
     : path_(std::move(other.path_)),
       staging_(std::exchange(other.staging_, {})),
+      is_resumable_(other.is_resumable_),
       created_(std::exchange(other.created_, {})),
       lock_(std::exchange(other.lock_, -1)) {}
 
@@ -91,8 +118,9 @@ OutputFolder::~OutputFolder() {
 }
 
 std::function<void()> OutputFolder::CleanUp() const {
-  return [staging = staging_, created = created_] {
+  return [staging = staging_, created = created_, is_resumable = is_resumable_] {
     std::error_code ignored;
+    if (is_resumable && IsClaimed(staging)) return;
     if (!staging.empty()) fs::remove_all(staging, ignored);
     for (auto it = created.rbegin(); it != created.rend(); ++it) fs::remove(*it, ignored);
   };
@@ -118,6 +146,10 @@ Result<void> OutputFolder::Commit() {
   std::vector<fs::path> files, folders;
   for (fs::recursive_directory_iterator it(staging_, error), end; !error && it != end;
        it.increment(error)) {
+    if (it->path().filename() == kResumeFolder) {
+      it.disable_recursion_pending();
+      continue;
+    }
     (it->is_directory() ? folders : files).push_back(fs::relative(it->path(), staging_));
   }
   if (error) return tl::make_unexpected(WriteError(path_, error.value()));
@@ -147,6 +179,8 @@ Result<void> OutputFolder::Commit() {
     moved.push_back(path_ / file);
   }
   fs::remove_all(staging_, error);
+  const fs::path unfinished = path_ / kUnfinishedFolder;
+  if (fs::exists(unfinished / kResumeFolder, error)) fs::remove_all(unfinished, error);
   staging_.clear();
   created_.clear();
   return {};

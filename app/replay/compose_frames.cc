@@ -1,11 +1,14 @@
 #include "app/replay/compose_frames.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <set>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -14,6 +17,7 @@
 #include "app/replay/report_frames.h"
 #include "app/terminal/pass_bar.h"
 #include "base/atomic_file.h"
+#include "devices/images/image_file.h"
 #include "export/images/image_writer.h"
 #include "export/images/video_writer.h"
 #include "session/recording_passes.h"
@@ -50,12 +54,27 @@ Result<std::unique_ptr<exports::VideoWriter>> OpenVideo(
   return video;
 }
 
-/// Creates the folder of the composited frames; empty if none is requested.
+/// Creates the folder of the composited frames; empty if none is needed.
 Result<fs::path> MakeFrameFolder(ReplayState& state) {
-  if (!state.write.frames) return fs::path();
+  if (!state.write.frames && !state.write.is_resumable) return fs::path();
   PLEINAIR_RETURN_IF_ERROR(state.folder.MakeFolder("frames"));
-  state.report.files.outputs.emplace_back("frames/%04d.png");
+  if (state.write.frames) state.report.files.outputs.emplace_back("frames/%04d.png");
   return state.folder.staging() / "frames";
+}
+
+/// A frame that an interrupted replay composed.
+std::optional<RgbImage> EarlierFrame(const ReplayState& state, const fs::path& frames,
+                                     std::int64_t index) {
+  if (!state.write.is_resumable) return std::nullopt;
+  const fs::path file = frames / fmt::format("{:04}.png", index);
+  std::error_code error;
+  if (!fs::exists(file, error)) return std::nullopt;
+  Result<devices::DecodedImage> image = devices::DecodeImageFile(file);
+  if (!image || image->rgb.width() != state.report.film.width ||
+      image->rgb.height() != state.report.film.height) {
+    return std::nullopt;
+  }
+  return std::move(image->rgb);
 }
 
 void AddPicture(const devices::Frame& frame, const RgbImage& composed, ReplayReport* report) {
@@ -83,8 +102,14 @@ Result<void> WriteLight(ReplayState& state) {
 Result<void> ComposeFrames(ReplayState& state) {
   PLEINAIR_ASSIGN_OR_RETURN(devices::Recording recording, state.OpenRecording());
   PLEINAIR_ASSIGN_OR_RETURN(auto video, OpenVideo(recording.sound, state));
-  PLEINAIR_ASSIGN_OR_RETURN(fs::path frames, MakeFrameFolder(state));
-  CompositeWriter writer(std::move(frames), std::move(video));
+  PLEINAIR_ASSIGN_OR_RETURN(const fs::path frames, MakeFrameFolder(state));
+  CompositeWriter writer(frames, std::move(video));
+  std::set<std::int64_t> composed_before;
+  const auto earlier = [&](std::int64_t index) {
+    std::optional<RgbImage> image = EarlierFrame(state, frames, index);
+    if (image) composed_before.insert(index);
+    return image;
+  };
   std::vector<std::pair<std::int64_t, std::int64_t>> frames_seen;
   std::vector<LightRow> rows;
   const std::set<std::int64_t> shown =
@@ -99,11 +124,12 @@ Result<void> ComposeFrames(ReplayState& state) {
       state.report.light = composed.light;
     }
     if (shown.contains(frame.index)) AddPicture(frame, composed.image, &state.report);
-    return writer.Add(frame.index, frame.timestamp_ns, std::move(composed.image));
+    return writer.Add(frame.index, frame.timestamp_ns, std::move(composed.image),
+                      composed_before.contains(frame.index));
   };
   PassBar bar("Composing", state.report.call.recording);
   PLEINAIR_RETURN_IF_ERROR(session::ComposeFrames(*state.pipeline, std::move(recording), take,
-                                                  {bar.Progress(), &state.times}));
+                                                  {bar.Progress(), &state.times}, earlier));
   PLEINAIR_RETURN_IF_ERROR(writer.Finish());
   state.times.Add(writer.times());
   state.report.light_changes.mode = state.options.light.changes;

@@ -6,6 +6,7 @@
 
 #include "app/output/detections_writer.h"
 #include "app/output/observed_trajectory.h"
+#include "app/output/resumption.h"
 #include "app/output/trajectory_export.h"
 #include "app/terminal/pass_bar.h"
 #include "session/recording_passes.h"
@@ -42,6 +43,9 @@ Result<void> FindMarkers(ReplayState& state, devices::Recording recording) {
   PLEINAIR_RETURN_IF_ERROR(session::TrackRecording(*state.pipeline, std::move(recording), take,
                                                    {bar.Progress(), &state.times}));
   PLEINAIR_RETURN_IF_ERROR(detections.Finish());
+  if (state.write.is_resumable) {
+    PLEINAIR_RETURN_IF_ERROR(DropFramesOfOtherDetections(state.folder.staging()));
+  }
   state.report.files.outputs.emplace_back("detections.jsonl");
   state.report.film.frames = state.pipeline->tracks().frames();
   return {};

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "app/options/light_options.h"
+#include "app/output/resumption.h"
 #include "app/output/trajectory_export.h"
 #include "app/replay/compose_frames.h"
 #include "app/replay/draw_day.h"
@@ -103,6 +104,49 @@ bool AssumesGround(const scene::SceneDescription& scene) {
   });
 }
 
+/// The files on which a replay depends, without the single frames of a recording and textures.
+std::vector<fs::path> InputsOf(const devices::Recording& recording, const ReplayState& state) {
+  const ReplayOptions& options = state.options;
+  std::vector<fs::path> files{options.recording};
+  for (const char* name : {"recording.json", "scene.json", "scene.toml"}) {
+    files.push_back(options.recording / name);
+  }
+  if (options.scene) files.push_back(*options.scene);
+  // A calibration from the film itself is staged, and new each time.
+  if (options.calibration && options.calibration->parent_path() != state.folder.staging()) {
+    files.push_back(*options.calibration);
+  }
+  for (const auto* trajectory :
+       {&options.trajectory,
+        recording.scene->trajectory ? &*recording.scene->trajectory : nullptr}) {
+    if (trajectory == nullptr) continue;
+    for (const fs::path& file : {trajectory->file, trajectory->points, trajectory->extrinsics}) {
+      if (!file.empty()) files.push_back(file);
+    }
+  }
+  if (recording.sound) files.push_back(recording.sound->film);
+  const std::string& response = recording.scene->camera_response;
+  if (!response.empty()) files.emplace_back(response);
+  for (const auto* models : {&recording.scene->phantoms, &recording.scene->objects}) {
+    for (const scene::ModelReference& model : *models) {
+      if (model.file.empty()) continue;
+      files.push_back(model.file);
+      files.push_back(fs::path(model.file).replace_extension(".mtl"));
+    }
+  }
+  return files;
+}
+
+/// Keeps the frames out of the results where they served the resumption alone.
+Result<void> RemoveUnrequestedFrames(const ReplayState& state) {
+  if (!state.write.is_resumable || state.write.frames) return {};
+  const fs::path frames = state.folder.staging() / "frames";
+  std::error_code error;
+  fs::remove_all(frames, error);
+  if (error) return tl::make_unexpected(WriteError(frames, error.value()));
+  return {};
+}
+
 /// Collects the warnings known before compositing.
 void Warn(ReplayState& state) {
   std::vector<std::string>& warnings = state.report.warnings;
@@ -157,6 +201,10 @@ Result<void> WriteReports(ReplayState& state) {
 Result<void> Run(ReplayState& state) {
   PLEINAIR_ASSIGN_OR_RETURN(PreparedReplay prepared, Prepare(state));
   const std::string& name = state.report.call.recording;
+  if (state.write.is_resumable) {
+    PLEINAIR_RETURN_IF_ERROR(ClaimUnfinished(state.folder.staging(), state.options.command,
+                                             InputsOf(prepared.recording, state)));
+  }
   PLEINAIR_RETURN_IF_ERROR(FindMarkers(state, std::move(prepared.recording)));
   if (prepared.trajectory) {
     prepared.trajectory->clock_start_ns = state.report.film.clock_start_ns;
@@ -171,7 +219,8 @@ Result<void> Run(ReplayState& state) {
   PLEINAIR_RETURN_IF_ERROR(ComposeFrames(state));
   PLEINAIR_RETURN_IF_ERROR(DrawDay(state));
   PLEINAIR_RETURN_IF_ERROR(WriteReports(state));
-  return CheckInterrupt(name);
+  PLEINAIR_RETURN_IF_ERROR(CheckInterrupt(name));
+  return RemoveUnrequestedFrames(state);
 }
 
 /// The output must not replace the recording.
@@ -195,7 +244,8 @@ Result<ReplayReport> Replay(const ReplayOptions& options) {
   }
   PLEINAIR_RETURN_IF_ERROR(CheckLightCache(options.light.cache));
   const InterruptGuard guard;
-  PLEINAIR_ASSIGN_OR_RETURN(OutputFolder folder, OutputFolder::Create(options.output));
+  PLEINAIR_ASSIGN_OR_RETURN(OutputFolder folder,
+                            OutputFolder::Create(options.output, options.write.is_resumable));
   std::optional<InterruptDeadline> deadline(std::in_place, options.recording.string(),
                                             folder.CleanUp());
   PLEINAIR_ASSIGN_OR_RETURN(const auto calibration, CalibrateFromFilm(options, folder));
@@ -209,7 +259,13 @@ Result<ReplayReport> Replay(const ReplayOptions& options) {
   Result<void> done = Run(state);
   deadline.reset();  // The files appear together: all or none.
   if (done) done = state.folder.Commit();
-  if (!done) return tl::make_unexpected(state.folder.InTermsOfTarget(done.error()));
+  if (!done) {
+    Error failure = state.folder.InTermsOfTarget(done.error());
+    if (state.write.is_resumable && InterruptGuard::Interrupted()) {
+      failure.remedy = "repeat the command to go on";
+    }
+    return tl::make_unexpected(std::move(failure));
+  }
   return std::move(state.report);
 }
 

@@ -20,6 +20,7 @@ struct WrittenOutputs {
   bool frames = false;  ///< One file a frame.
   bool video = true;
   std::set<exports::TrajectoryFormat> exports{};  ///< Trajectory formats in addition to TUM.
+  bool is_resumable = false;  ///< Unfinished outputs are kept, and a later replay goes on.
 };
 
 /// Input and options of a replay.

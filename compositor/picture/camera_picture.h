@@ -28,6 +28,9 @@ class CameraPicture {
   /// As Composer::SetCameraLook().
   Result<void> SetCameraLook(const std::optional<CameraLook>& look);
 
+  /// Counts an image that is not drawn: each one has noise of its own.
+  void Skip() { ++grain_.pictures; }
+
   /// Uploads the camera image `rgb`. It must have the camera's size and no gaps between rows.
   void SetBackground(ImageView<const std::uint8_t> rgb);
   /// Composes the drawn and resolved `targets`. The blur is applied to them in place.
