@@ -19,6 +19,7 @@ struct DescribedSurface {
   /// outside.
   std::vector<std::vector<Vec3>> polygons;
   LinearRgb reflectance = kUsualReflectance;
+  bool has_color = false;   ///< False: the reflectance is to be measured from the frames.
   bool is_assumed = false;  ///< The user did not write it.
 };
 

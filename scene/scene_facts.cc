@@ -252,6 +252,7 @@ Result<std::optional<ModelReference>> CompleteGround(const SceneFacts& facts, bo
   ModelReference model;
   model.surface = GroundSurface(side_m, height_m, upright);
   model.surface->is_assumed = is_assumed;
+  model.surface->has_color = ground.color.has_value();
   model.surface->reflectance = ground.color.value_or(kUsualReflectance);
   return model;
 }

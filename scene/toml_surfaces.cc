@@ -89,6 +89,20 @@ Result<ModelReference> ReadModel(const TomlTable& table, const TomlTable& scene,
   return model;
 }
 
+/// The color of a described surface; nothing if it is to be measured.
+Result<std::optional<LinearRgb>> ReadColor(const TomlTable& table) {
+  const toml::node* node = table.Find("color");
+  if (node == nullptr) return std::nullopt;
+  if (node->is_string()) {
+    PLEINAIR_ASSIGN_OR_RETURN(const std::optional<std::string> word, table.Text("color"));
+    if (word == "measured") return std::nullopt;
+    return table.Fail("color", "is not known",
+                      "write \"measured\", or [red, green, blue]: linear reflectance, 0 to 1");
+  }
+  PLEINAIR_ASSIGN_OR_RETURN(const std::optional<Vec3> color, table.Triple("color"));
+  return LinearRgb{color->x, color->y, color->z};
+}
+
 /// The boxes or the walls of a scene, as phantoms.
 template <typename ReadShape>
 Result<void> ReadSurfaces(const TomlTable& scene, const char* key, const ReadShape& read_shape,
@@ -104,8 +118,9 @@ Result<void> ReadSurfaces(const TomlTable& scene, const char* key, const ReadSha
     ModelReference& model = phantoms->emplace_back();
     model.surface = *std::move(surface);
     model.surface->name = name;
-    PLEINAIR_ASSIGN_OR_RETURN(const std::optional<Vec3> color, tables[i].Triple("color"));
-    if (color) model.surface->reflectance = {color->x, color->y, color->z};
+    PLEINAIR_ASSIGN_OR_RETURN(const std::optional<LinearRgb> color, ReadColor(tables[i]));
+    model.surface->has_color = color.has_value();
+    model.surface->reflectance = color.value_or(kUsualReflectance);
     PLEINAIR_RETURN_IF_ERROR(ReadPlacement(tables[i], &model));
   }
   return {};
@@ -163,8 +178,7 @@ Result<void> ReadGround(const TomlTable& scene, GroundFacts* facts) {
   facts->is_given = true;
   PLEINAIR_ASSIGN_OR_RETURN(facts->size_m, ground.Number("size_m"));
   PLEINAIR_ASSIGN_OR_RETURN(facts->height_m, ground.Number("height_m"));
-  PLEINAIR_ASSIGN_OR_RETURN(const std::optional<Vec3> color, ground.Triple("color"));
-  if (color) facts->color = LinearRgb{color->x, color->y, color->z};
+  PLEINAIR_ASSIGN_OR_RETURN(facts->color, ReadColor(ground));
   return {};
 }
 

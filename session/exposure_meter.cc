@@ -15,7 +15,7 @@ void ExposureMeter::Read(ImageView<const std::uint8_t> rgb, const CameraModel& c
     filter_.Add(estimate->exposure_scale * marker_shade / followed.marker_light, estimate->error);
     ++summary->exposures.estimates;
     summary->exposures.dappled += estimate->dappled ? 1 : 0;
-    summary->marker_sunlit_share = estimate->sunlit_share;
+    summary->exposures.sunlit_share = estimate->sunlit_share;
   }
   summary->exposure_scale_source =
       filter_.empty() ? ExposureScaleSource::kGuess : ExposureScaleSource::kMarker;

@@ -1,9 +1,12 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "base/vector.h"
 #include "compositor/photometry/measured_light.h"
+#include "compositor/photometry/surface_colors.h"
 #include "compositor/picture/camera_look.h"
 #include "session/light_follower.h"
 #include "sky/sun/sun_position.h"
@@ -26,6 +29,8 @@ struct ExposureHistory {
   int estimates = 0;    ///< Frames in which the marker gave an exposure estimate.
   int dappled = 0;      ///< Those in which leaves shade the marker.
   double change = 1.0;  ///< See ExposureFilter::Change().
+  /// Share of the marker that the phantoms leave sunlit, at the last estimate.
+  double sunlit_share = 0.0;
 };
 
 /// What the frames show of the camera's response (compositor/photometry/response/response_fit.h).
@@ -42,6 +47,13 @@ struct ResponseSummary {
   bool IsShown() const { return log_error > 0.0; }
 };
 
+/// Color of a surface that the scene describes without one.
+struct SurfaceColorSummary {
+  std::string surface;    ///< "ground", "box 1", "wall 2".
+  LinearRgb reflectance;  ///< In use: measured, or the usual one.
+  compositor::SurfaceColor measured;
+};
+
 /// Light of a frame: sun, sky and exposure.
 struct LightSummary {
   sky::SunPosition sun;
@@ -55,12 +67,11 @@ struct LightSummary {
   /// See ExposureFilter::Error(); only for kMarker.
   LinearRgb exposure_scale_error;
   ExposureHistory exposures;
-  /// Share of the marker that the phantoms leave sunlit, at the last estimate.
-  double marker_sunlit_share = 0.0;
   /// Blur and noise of the last frames. Empty where they are not matched or cannot be measured.
   std::optional<compositor::CameraLook> look;
   compositor::MeasuredLight measured;  ///< Sun, sky and heading.
   ResponseSummary response;
+  std::vector<SurfaceColorSummary> surface_colors;
 };
 
 /// Share of the exposure estimates in which leaves shade the marker; 0 without any.

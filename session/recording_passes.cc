@@ -217,10 +217,8 @@ Result<void> EstimateLight(Pipeline& pipeline, devices::Recording recording,
     });
   }
   PLEINAIR_RETURN_IF_ERROR(pass.Report(done, count));
-  pass.times().Measure("estimate light", [&] {
-    pipeline.renderer().EstimateLight();
-    return 0;
-  });
+  PLEINAIR_RETURN_IF_ERROR(
+      pass.times().Measure("estimate light", [&] { return pipeline.renderer().EstimateLight(); }));
   pass.times().Measure("follow light", [&] {
     if (LightChanges(pipeline)) FollowLight(pipeline, path, chosen, FramesOf(path, chosen));
     return 0;

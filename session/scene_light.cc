@@ -29,14 +29,25 @@ void SceneLight::Observe(ImageView<const std::uint8_t> rgb, const CameraModel& c
   estimator_->Add(rgb, camera_from_marker, shows_marker);
 }
 
-std::optional<compositor::LightEstimate> SceneLight::Conclude() {
+std::optional<SceneLight::Conclusion> SceneLight::Conclude(const std::set<int>& uncolored) {
   if (!estimator_) return std::nullopt;
   compositor::LightFilter of_no_other_look;
-  compositor::LightEstimate found = estimator_->Estimate(&of_no_other_look);
+  Conclusion found;
+  found.light = estimator_->Estimate(&of_no_other_look);
+  found.colors = estimator_->MeasureColors(found.light, uncolored);
   estimator_.reset();
   concluded_ = true;
-  if (found.skies.source) skies_ = found.skies;
+  if (found.light.skies.source) skies_ = found.light.skies;
   return found;
+}
+
+Result<void> SceneLight::UseModels(const std::vector<compositor::PlacedModel>& placed) {
+  compositor::LightSolverOptions solving;
+  solving.max_patches = options_.overrides.max_patches.value_or(solving.max_patches);
+  PLEINAIR_ASSIGN_OR_RETURN(solver_, compositor::LightSolver::Create(placed, solving));
+  coefficients_.reset();
+  in_use_.reset();
+  return {};
 }
 
 void SceneLight::Probe(ImageView<const std::uint8_t> rgb, const CameraModel& camera,
@@ -44,7 +55,10 @@ void SceneLight::Probe(ImageView<const std::uint8_t> rgb, const CameraModel& cam
                        std::int64_t frame_index, std::int64_t timestamp_ns,
                        const scene::MarkerReflectance& marker_reflectance,
                        const CameraResponse& response) {
-  if (!follower_) follower_.emplace(solver_->phantoms(), camera, response);
+  if (!follower_) {
+    probed_ = solver_;
+    follower_.emplace(probed_->phantoms(), camera, response);
+  }
   follower_->Add(rgb, camera_from_marker, marker_reflectance, frame_index, timestamp_ns);
 }
 

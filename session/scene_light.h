@@ -1,20 +1,25 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
+#include <vector>
 
 #include "base/camera_model.h"
 #include "base/camera_response.h"
+#include "base/error.h"
 #include "base/frames.h"
 #include "base/image.h"
 #include "base/utc_time.h"
 #include "compositor/light/daylight/daylight_coefficients.h"
 #include "compositor/light/light_solver.h"
+#include "compositor/models/placed_model.h"
 #include "compositor/photometry/light_estimator.h"
 #include "compositor/photometry/measured_light.h"
 #include "compositor/photometry/sky_state.h"
+#include "compositor/photometry/surface_colors.h"
 #include "scene/marker_reflectance.h"
 #include "scene/scene_description.h"
 #include "session/baked_lighting.h"
@@ -40,9 +45,19 @@ class SceneLight {
                const scene::MarkerReflectance& marker_reflectance, const CameraResponse& response,
                bool shows_marker);
 
-  /// Estimates the light from the frames added, and uses its skies from now on. Returns nothing if
-  /// no frame was added.
-  std::optional<compositor::LightEstimate> Conclude();
+  /// What the added frames show.
+  struct Conclusion {
+    compositor::LightEstimate light;
+    std::map<int, compositor::SurfaceColor> colors;  ///< By placed model.
+  };
+
+  /// Estimates the light from the frames added, and uses its skies from now on. Also measures the
+  /// colors of `uncolored` placed models. Returns nothing if no frame was added.
+  std::optional<Conclusion> Conclude(const std::set<int>& uncolored);
+
+  /// Replaces the models by those of other colors. Light in use becomes stale. Errors: those of
+  /// LightSolver::Create().
+  Result<void> UseModels(const std::vector<compositor::PlacedModel>& placed);
 
   /// Adds a frame of the recording's first pass, in order, so that its light can be followed.
   /// `camera`: the lens of these frames.
@@ -105,7 +120,8 @@ class SceneLight {
   bool concluded_ = false;
   std::shared_ptr<const BakedLighting> in_use_;
   bool made_elsewhere_ = false;
-  std::optional<LightFollower> follower_;  // For the frames probed so far.
+  std::optional<LightFollower> follower_;  // For the frames probed so far; queries probed_.
+  std::shared_ptr<const compositor::LightSolver> probed_;
 };
 
 }  // namespace pleinair::session

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <memory>
 #include <numbers>
+#include <set>
 #include <utility>
 
 #include "compositor/light/light_solver.h"
@@ -167,12 +169,35 @@ Result<void> SceneRenderer::EstimateResponse(const std::set<std::int64_t>& frame
   return composer_->SetResponse(response_);
 }
 
-void SceneRenderer::EstimateLight() {
-  if (!light_) return;
-  const auto found = light_->Conclude();
-  if (!found) return;
-  summary_.measured = found->measured;
-  scene_.marker.heading = found->heading;
+Result<void> SceneRenderer::EstimateLight() {
+  if (!light_) return {};
+  std::set<int> uncolored;
+  for (std::size_t i = 0; i < scene_.phantoms.size(); ++i) {
+    const auto& surface = scene_.phantoms[i].surface;
+    if (surface && !surface->has_color) uncolored.insert(static_cast<int>(i));
+  }
+  const auto found = light_->Conclude(uncolored);
+  if (!found) return {};
+  summary_.measured = found->light.measured;
+  scene_.marker.heading = found->light.heading;
+  return UseColors(found->colors);
+}
+
+/// Gives described surfaces their measured colors. Light is traced anew.
+Result<void> SceneRenderer::UseColors(const std::map<int, compositor::SurfaceColor>& colors) {
+  bool is_new = false;
+  for (const auto& [index, color] : colors) {
+    const auto i = static_cast<std::size_t>(index);
+    scene::DescribedSurface& surface = *scene_.phantoms[i].surface;
+    if (color.outcome == compositor::SurfaceColor::Outcome::kMeasured) {
+      surface.reflectance = color.reflectance;
+      placed_[i].model = std::make_shared<const compositor::Model>(
+          compositor::PolygonModel(surface.name, surface.polygons, surface.reflectance));
+      is_new = true;
+    }
+    summary_.surface_colors.push_back({surface.name, surface.reflectance, color});
+  }
+  return is_new ? light_->UseModels(placed_) : Result<void>();
 }
 
 std::shared_ptr<const compositor::DaylightCoefficients> SceneRenderer::Coefficients(

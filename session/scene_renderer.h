@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -76,8 +77,9 @@ class SceneRenderer {
   /// Null if no frame was probed.
   const LightFollower* light_follower() const { return light_ ? light_->follower() : nullptr; }
 
-  /// Estimates heading, sun and sky from the added frames, and uses them from now on.
-  void EstimateLight();
+  /// Estimates heading, sun, sky and the colors of described surfaces that have none from the added
+  /// frames, and uses them from now on. Errors: those of LightSolver::Create().
+  Result<void> EstimateLight();
 
   /// Inputs of the light at `time` for the current scene. Call only if there are objects to draw.
   LightingRequest MakeLightingRequest(UtcTime time) const;
@@ -148,6 +150,7 @@ class SceneRenderer {
   SceneRenderer(const CameraModel& camera, const scene::SceneDescription& scene);
 
   Result<void> TakeLight(std::shared_ptr<const BakedLighting> light, bool made_elsewhere);
+  Result<void> UseColors(const std::map<int, compositor::SurfaceColor>& colors);
   void MoveObjects();
   Result<void> UpdateLight(UtcTime time);
   void SummarizeLight(const FollowedLight& followed);

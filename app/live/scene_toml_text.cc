@@ -62,9 +62,13 @@ void AddSurface(const scene::ModelReference& model, std::string* text) {
     *text += "\n[[wall]]\ncorners_m = [";
     for (std::size_t i = 0; i < polygon.size(); ++i)
       *text += (i == 0 ? "" : ", ") + Vector(polygon[i]);
-    *text += fmt::format("]\ncolor = [{}, {}, {}]\ntranslation_m = {}\nrotation_deg = {}\n",
-                         surface.reflectance.r, surface.reflectance.g, surface.reflectance.b,
-                         Vector(model.translation_m), Vector(model.rotation_deg));
+    *text += "]\n";
+    if (surface.has_color) {
+      *text += fmt::format("color = [{}, {}, {}]\n", surface.reflectance.r, surface.reflectance.g,
+                           surface.reflectance.b);
+    }
+    *text += fmt::format("translation_m = {}\nrotation_deg = {}\n", Vector(model.translation_m),
+                         Vector(model.rotation_deg));
   }
 }
 

@@ -34,6 +34,25 @@ std::string Described(const scene::MarkerDescription& marker) {
   return marker.id ? fmt::format("number {} of sg or tag36h11", *marker.id) : "sg or tag36h11";
 }
 
+/// Why the color of a surface was not measured.
+const char* ReasonOf(compositor::SurfaceColor::Outcome outcome) {
+  using Outcome = compositor::SurfaceColor::Outcome;
+  switch (outcome) {
+    case Outcome::kClipped:
+      return "most of it is too bright or too dark in the frames";
+    case Outcome::kUneven:
+      return "it has no color that prevails";
+    case Outcome::kImpossible:
+      return "in this light no real surface looks so";
+    case Outcome::kNoLight:
+      return "the light is not known";
+    case Outcome::kTooFew:
+    case Outcome::kMeasured:
+      break;
+  }
+  return "too little of it is seen";
+}
+
 std::string NeverSeen(const ReplayReport& report, const scene::MarkerDescription& marker) {
   std::string seen;
   for (const session::MarkerName& other : report.markers) seen += " " + other.ToString();
@@ -166,6 +185,14 @@ std::vector<std::string> LightWarnings(const session::LightSummary& summary,
                     "passed, shadows are too dark or too faint before or after it. Replay the "
                     "parts one by one, or film with locked exposure.",
                     summary.exposures.change));
+  }
+  for (const session::SurfaceColorSummary& color : summary.surface_colors) {
+    if (color.measured.outcome == compositor::SurfaceColor::Outcome::kMeasured) continue;
+    warnings.push_back(
+        fmt::format("The color of {} could not be measured: {}. {:.2f} {:.2f} {:.2f} is assumed. "
+                    "Give its color in the scene if the light from it matters.",
+                    color.surface, ReasonOf(color.measured.outcome), color.reflectance.r,
+                    color.reflectance.g, color.reflectance.b));
   }
   if (summary.response.source == session::ResponseSummary::Source::kMeasured) {
     warnings.push_back(

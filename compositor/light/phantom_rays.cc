@@ -49,12 +49,14 @@ class EmbreePhantomRays : public PhantomRays {
     if (!found) return {};
     const PatchScene::Face& face = scene_.FaceOf(hit);
     const int side = hit.back ? 1 : 0;
-    const auto& albedo = scene_.mesh_sides[face.mesh_side].albedo;
+    const PatchScene::MeshSide& mesh_side = scene_.mesh_sides[face.mesh_side];
+    const auto& albedo = mesh_side.albedo;
     return PhantomSurface{{eye.xyz + direction * hit.distance_m},
                           hit.back ? -face.normal : face.normal,
                           static_cast<int>(face.mesh_side) * 2 + side,
                           {albedo[0], albedo[1], albedo[2]},
-                          false};
+                          false,
+                          mesh_side.mesh.placed_model};
   }
 
   using PhantomRays::Ambient;

@@ -24,6 +24,7 @@ struct PhantomSurface {
   /// The hit belongs to a phantom's foliage (foliage.h). The image shows a leaf or its background
   /// there, so it measures no surface. Only `point` is set.
   bool is_foliage = false;
+  int placed_model = 0;  ///< Index into the scene's list of placed models.
 };
 
 /// A place on a surface, and the way it faces: unit.

@@ -101,6 +101,27 @@ void LightEstimator::Add(ImageView<const std::uint8_t> rgb,
   samples_.AddFrame(rgb, camera_from_marker, exposure_scale_, shows_marker);
 }
 
+std::map<int, SurfaceColor> LightEstimator::MeasureColors(
+    const LightEstimate& found, const std::set<int>& placed_models) const {
+  SkyState skies = found.skies;
+  if (!skies.source) skies.source = DescribedSky(scene_);
+  if (const auto given = OverriddenSky(scene_, overrides_, sun_)) {
+    skies.source = given->skies;
+    skies.scale = given->sky_radiance_scale;
+  }
+  scene::MarkerDescription marker = scene_.marker;
+  marker.heading = found.heading;
+  const auto day = skies.source->ForSun(sun_.ToSun(), sun_.distance_au);
+  return MeasureSurfaceColors(
+      *phantoms_, samples_,
+      {.meter = meter_,
+       .day = ScaledSky(*day, skies.scale, {1.0, 1.0, 1.0}),
+       .skies = skies,
+       .marker_from_world = scene::MarkerFromWorld(marker),
+       .is_known = exposure_scale_ != LinearRgb{1.0, 1.0, 1.0} && !found.measured.sun_doubtful},
+      placed_models);
+}
+
 bool LightEstimator::IsMarkerDivided(const UnmodelledShadows& unmodelled) const {
   const auto divided = static_cast<int>(marker_shadow_edges_.size());
   return divided > 0 && divided >= std::min(kMinDividedFrames, samples_.frames()) &&

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
+#include <set>
 #include <vector>
 
 #include "base/camera_model.h"
@@ -17,6 +19,7 @@
 #include "compositor/photometry/sky_fit.h"
 #include "compositor/photometry/sky_state.h"
 #include "compositor/photometry/sun_sky_ratio.h"
+#include "compositor/photometry/surface_colors.h"
 #include "compositor/photometry/surface_samples.h"
 #include "scene/scene_description.h"
 
@@ -42,6 +45,10 @@ class LightEstimator {
   /// seconds. `light_filter` holds the estimates of earlier passes in the same scene. They
   /// contribute to the result, and this pass's estimates are added to them.
   LightEstimate Estimate(LightFilter* light_filter) const;
+
+  /// Estimates the reflectance of placed models in this light, or in that of the overrides.
+  std::map<int, SurfaceColor> MeasureColors(const LightEstimate& found,
+                                            const std::set<int>& placed_models) const;
 
  private:
   /// Estimates the heading, and from the shadow edges at this heading the sun-to-sky ratio.

@@ -71,11 +71,12 @@ bool SurfaceSamples::Observe(ImageView<const std::uint8_t> rgb,
 }
 
 void SurfaceSamples::AddSurfaceSample(const PhantomSurface& surface_sample, double distance_m) {
-  const auto& [point, normal, surface, albedo, is_foliage] = surface_sample;
+  const auto& [point, normal, surface, albedo, is_foliage, placed_model] = surface_sample;
   SurfaceSample sample;
   sample.point = point;
   sample.normal = normal;
   sample.surface = surface;
+  sample.placed_model = surface < 0 ? -1 : placed_model;
   sample.albedo = albedo;
   sample.footprint_m = distance_m / std::max(1.0, std::min(camera_.fx, camera_.fy));
   const int level =

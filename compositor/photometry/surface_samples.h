@@ -24,6 +24,7 @@ struct SurfaceSample {
   std::array<double, 3>
       log_rgb{};           ///< Mean logarithm of linear light over the frame's exposure scale.
   int surface = 0;         ///< As in PhantomSurface; below 0: the marker's white.
+  int placed_model = -1;   ///< As in PhantomSurface; -1: the marker.
   LinearRgb albedo{};      ///< As described for the surface.
   std::uint32_t cell = 0;  ///< Samples of one cell are neighbours on one material and plane.
   int frames = 0;          ///< Frames that show it unclipped.

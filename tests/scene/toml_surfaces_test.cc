@@ -60,12 +60,15 @@ corners_m = [[2, 0, 0], [2, 3, 0], [2, 3, 2.5], [2, 0, 2.5]]
   EXPECT_NEAR(volume, 1.0, 1e-12);
   EXPECT_EQ(phantoms[1].surface->name, "wall 1");
   EXPECT_EQ(phantoms[1].surface->reflectance, kUsualReflectance);
+  EXPECT_FALSE(phantoms[1].surface->has_color);
   const DescribedSurface& ground = phantoms[2].surface.value();
   EXPECT_EQ(ground.reflectance, (LinearRgb{0.1, 0.2, 0.3}));
   const auto& corners = ground.polygons.at(0);
   EXPECT_EQ(corners[0], (Vec3{-4, -4, -0.01}));
   EXPECT_GT(Cross(corners[1] - corners[0], corners[2] - corners[1]).z, 0.0);
   EXPECT_FALSE(ground.is_assumed);
+  EXPECT_TRUE(ground.has_color);
+  EXPECT_FALSE(PhantomsWith("[ground]\ncolor = \"measured\"\n").at(0).surface->has_color);
 }
 
 TEST(TomlSurfaces, LevelGroundIsAssumedBelowALyingMarkerAlone) {
@@ -101,6 +104,7 @@ TEST(TomlSurfaces, ImpossibleSurfacesAreRefused) {
   EXPECT_THAT(wall("[0, 0, 0], [1e7, 0, 0], [0, 1, 0]"), HasSubstr("million metres"));
   EXPECT_THAT(refusal("[ground]\nsize_m = -3\n"), HasSubstr("impossible size"));
   EXPECT_THAT(refusal("[ground]\ncolor = [2, 0, 0]\n"), HasSubstr("color outside 0 to 1"));
+  EXPECT_THAT(refusal("[ground]\ncolor = \"green\"\n"), HasSubstr("\"measured\""));
   EXPECT_THAT(refusal("[ground]\nsiez_m = 3\n"), HasSubstr("\"siez_m\" is unknown"));
 }
 

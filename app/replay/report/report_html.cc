@@ -182,9 +182,9 @@ std::string ResponseCard(const session::ResponseSummary& response) {
 /// Whether the sun reaches the marker; empty if the marker gave no exposure estimate.
 std::string MarkerCard(const session::LightSummary& light) {
   if (light.exposures.estimates == 0) return "";
-  std::string figure = fmt::format("{:.0f} % in the sun", light.marker_sunlit_share * 100);
-  if (light.marker_sunlit_share <= 0.0) figure = "in shade";
-  if (light.marker_sunlit_share >= 1.0) figure = "in the sun";
+  std::string figure = fmt::format("{:.0f} % in the sun", light.exposures.sunlit_share * 100);
+  if (light.exposures.sunlit_share <= 0.0) figure = "in shade";
+  if (light.exposures.sunlit_share >= 1.0) figure = "in the sun";
   if (!light.measured.sun_shines) figure = "no sun";
   return Card(
       figure,

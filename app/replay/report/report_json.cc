@@ -103,6 +103,39 @@ Json LookJson(const compositor::CameraLook& look) {
           {"noise_channel_correlation", Rounded(look.channel_correlation)}};
 }
 
+const char* OutcomeName(compositor::SurfaceColor::Outcome outcome) {
+  using Outcome = compositor::SurfaceColor::Outcome;
+  switch (outcome) {
+    case Outcome::kMeasured:
+      return "measured";
+    case Outcome::kTooFew:
+      return "not seen";
+    case Outcome::kClipped:
+      return "clipped";
+    case Outcome::kUneven:
+      return "uneven";
+    case Outcome::kImpossible:
+      return "impossible";
+    case Outcome::kNoLight:
+      return "light unknown";
+  }
+  return "";
+}
+
+/// Colors of the surfaces that the scene describes without one.
+Json SurfaceColorsJson(const std::vector<session::SurfaceColorSummary>& colors) {
+  Json list = Json::array();
+  for (const session::SurfaceColorSummary& color : colors) {
+    const bool is_measured = color.measured.outcome == compositor::SurfaceColor::Outcome::kMeasured;
+    list.push_back({{"surface", color.surface},
+                    {"reflectance_rgb", ColorJson(color.reflectance)},
+                    {"relative_error", IfKnown(is_measured, color.measured.relative_error)},
+                    {"outcome", OutcomeName(color.measured.outcome)},
+                    {"places", color.measured.places}});
+  }
+  return list;
+}
+
 Json LightJson(const session::LightSummary& light) {
   const bool is_metered =
       light.exposure_scale_source == session::LightSummary::ExposureScaleSource::kMarker;
@@ -118,10 +151,11 @@ Json LightJson(const session::LightSummary& light) {
           {"gain_relative_error_rgb", is_metered ? ColorJson(light.exposure_scale_error) : Json()},
           {"gain_change", IfKnown(is_metered, light.exposures.change)},
           {"gain_readings", light.exposures.estimates},
-          {"marker_in_sun", IfKnown(may_be_lit, light.marker_sunlit_share)},
+          {"marker_in_sun", IfKnown(may_be_lit, light.exposures.sunlit_share)},
           {"marker_dappled", IfKnown(light.exposures.estimates > 0, session::DappledShare(light))},
           {"look", light.look ? LookJson(*light.look) : Json()},
           {"camera_response", ResponseJson(light.response)},
+          {"surface_colors", SurfaceColorsJson(light.surface_colors)},
           {"measured", MeasuredJson(light.measured)}};
 }
 

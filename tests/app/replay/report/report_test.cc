@@ -5,8 +5,11 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <tuple>
+#include <vector>
 
+#include "app/replay/replay_warnings.h"
 #include "app/replay/report/report_html.h"
 #include "app/replay/report/report_json.h"
 #include "export/plots/line_plot.h"
@@ -121,7 +124,7 @@ session::LightSummary MeasuredSummary() {
   light.exposures.change = 1.25;
   light.exposures.estimates = 40;
   light.exposures.dappled = 10;
-  light.marker_sunlit_share = 0.625;
+  light.exposures.sunlit_share = 0.625;
   light.measured.sun_source = light.measured.heading_source = Source::kMeasured;
   light.measured.sun_to_sky = 4.55;
   light.measured.sun_to_sky_stated = 4.74;
@@ -249,11 +252,32 @@ TEST(ReportLight, ReportsWhoGaveTheExposure) {
   }
 }
 
+TEST(ReportLight, ReportsTheColorsOfDescribedSurfaces) {
+  using Outcome = compositor::SurfaceColor::Outcome;
+  session::LightSummary light = MeasuredSummary();
+  light.surface_colors.push_back(
+      {"ground", {0.4, 0.36, 0.3}, {Outcome::kMeasured, {0.4, 0.36, 0.3}, 0.11, 200}});
+  light.surface_colors.push_back({"wall 1", {0.35, 0.33, 0.3}, {Outcome::kUneven, {}, 0.0, 0}});
+  const auto colors = JsonOf(light)["surface_colors"];
+  ASSERT_EQ(colors.size(), 2U);
+  EXPECT_EQ(colors[0]["outcome"], "measured");
+  EXPECT_EQ(colors[0]["reflectance_rgb"][0], 0.4);
+  EXPECT_EQ(colors[0]["relative_error"], 0.11);
+  EXPECT_EQ(colors[1]["outcome"], "uneven");
+  EXPECT_TRUE(colors[1]["relative_error"].is_null());
+  const std::vector<std::string> warnings = LightWarnings(light, {});
+  EXPECT_EQ(std::count_if(warnings.begin(), warnings.end(),
+                          [](const std::string& sentence) {
+                            return sentence.find("The color of wall 1") == 0;
+                          }),
+            1);
+}
+
 TEST(ReportLight, ReportsWhetherTheMarkerLiesInTheSun) {
   session::LightSummary light = MeasuredSummary();
-  light.marker_sunlit_share = 1.0;
+  light.exposures.sunlit_share = 1.0;
   EXPECT_THAT(PageOf(light), HasSubstr("<b>in the sun</b>"));
-  light.marker_sunlit_share = 0.0;
+  light.exposures.sunlit_share = 0.0;
   EXPECT_EQ(JsonOf(light)["marker_in_sun"], 0.0);
   EXPECT_THAT(PageOf(light), HasSubstr("<b>in shade</b>"));
   light.measured.sun_shines = false;
