@@ -191,7 +191,8 @@ void AddNewCommand(CLI::App& app, CommandResult& result) {
                       "Cloudiness: clear (default), hazy, partly cloudy, overcast");
   command->add_option(
       "--calibration", arguments->words.calibration,
-      "Calibration of the film's lens. Default: the film's own markers tell it, else "
+      "Calibration of the film's lens; one of another size is scaled and turned. "
+      "Default: the film's own markers tell it, else "
       "the focal length in its tags, else "
       "26 mm on 35 mm film, as of a usual phone");
   command->add_option("--marker", arguments->words.marker,

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "app/calibrate/film_lens.h"
+#include "devices/calibration/fitted_camera.h"
 #include "devices/images/image_file.h"
 #include "devices/recordings/image_sequence.h"
 #include "devices/recordings/video_file.h"
@@ -28,6 +29,7 @@ constexpr std::uintmax_t kMaxPhotoFileBytes = std::uintmax_t{256} << 20;
 struct LookedAtFile {
   std::unique_ptr<devices::FrameSource> frames;
   ImageSize size;
+  int clockwise_deg = 0;  ///< By which a film is turned for display.
   devices::FilmTags tags;
   bool is_photo = false;
 };
@@ -38,6 +40,7 @@ Result<LookedAtFile> OpenLookedAtFile(const fs::path& file) {
   if (!opened.is_photo) {
     PLEINAIR_ASSIGN_OR_RETURN(devices::OpenedVideo video, devices::OpenVideo(file, {}));
     opened.size = video.size;
+    opened.clockwise_deg = video.facts.clockwise_deg;
     opened.tags = std::move(video.facts.tags);
     opened.frames = std::move(video.frames);
     return opened;
@@ -49,6 +52,16 @@ Result<LookedAtFile> OpenLookedAtFile(const fs::path& file) {
   PLEINAIR_ASSIGN_OR_RETURN(opened.frames,
                             devices::OpenImageSequence({{file, 0, std::nullopt}}, opened.size));
   return opened;
+}
+
+/// The given lens, scaled and turned for the file, or the assumed one.
+Result<KnownLens> LensFor(const LookedAtFile& opened, const FilmLook& look,
+                          const LookOptions& options) {
+  if (!options.lens) return AssumedLens(opened.size, look.tags, look.file.filename().string());
+  PLEINAIR_ASSIGN_OR_RETURN(devices::FittedCamera fitted,
+                            devices::FitCamera(options.lens->camera, opened.size,
+                                               opened.clockwise_deg, look.file.string()));
+  return KnownLens{fitted.camera, options.lens->from, std::move(fitted.note)};
 }
 
 std::size_t CountOfLooks(ImageSize size) {
@@ -88,15 +101,8 @@ std::vector<std::string> FamiliesToLookFor(const std::optional<std::string>& wan
 Result<FilmLook> LookAt(const fs::path& file, const LookOptions& options) {
   PLEINAIR_ASSIGN_OR_RETURN(LookedAtFile opened, OpenLookedAtFile(file));
   FilmLook look{file, opened.is_photo, std::move(opened.tags), {}, 0, {}};
-  look.lens = options.lens.value_or(AssumedLens(opened.size, look.tags, file.filename().string()));
+  PLEINAIR_ASSIGN_OR_RETURN(look.lens, LensFor(opened, look, options));
   const CameraModel& camera = look.lens.camera;
-  if (ImageSize{camera.width, camera.height} != opened.size) {
-    return InputError(
-        file.string(),
-        fmt::format("has {}x{} pixels, but the calibration is for {}x{}", opened.size.width,
-                    opened.size.height, camera.width, camera.height),
-        "use the calibration of this camera at this size");
-  }
   tracker::TrackerOptions tracking;
   tracking.families = FamiliesToLookFor(options.family);
   tracking.marker_size_m = 1.0;

@@ -19,6 +19,7 @@ namespace pleinair::app {
 struct KnownLens {
   CameraModel camera;
   std::string from;  ///< For a comment: "camera.json", "the focal length in the tags of walk.mov".
+  std::string note{};  ///< For the user: how the calibration was scaled or turned; else empty.
 };
 
 /// The lens assumed for images of this size. The focal length is that of the tags. Without it, it
@@ -48,13 +49,13 @@ std::vector<std::string> FamiliesToLookFor(const std::optional<std::string>& wan
 
 /// How to look.
 struct LookOptions {
-  std::optional<KnownLens> lens;        ///< In place of AssumedLens().
+  std::optional<KnownLens> lens;        ///< In place of AssumedLens(); FitCamera() fits it.
   std::optional<std::string> family{};  ///< In place of "sg" and "tag36h11".
 };
 
 /// Detects markers in at most 12 frames of a film, or in a photograph. Large frames are
 /// fewer: together they have some 25 million pixels. Errors: those of OpenVideo() and
-/// DecodeImageFile(); a lens for another size; an unknown family of markers.
+/// DecodeImageFile(); those of FitCamera(); an unknown family of markers.
 Result<FilmLook> LookAt(const std::filesystem::path& file, const LookOptions& options);
 
 /// The marker of a scene, as the frames show it.

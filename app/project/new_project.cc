@@ -116,6 +116,8 @@ Result<NewProject> MakeProject(const NewProjectRequest& request, Questions* ques
   files.first_picture = std::move(picture.image);
   PLEINAIR_RETURN_IF_ERROR(CheckInterrupt(request.folder.string()));
   PLEINAIR_RETURN_IF_ERROR(WriteProject(files, request.folder, request.replaces));
+  const std::string& note = footage.film.lens.note;
+  if (!note.empty()) picture.warnings.insert(picture.warnings.begin(), note);
   return NewProject{std::move(scene), footage.marker.best_frame, std::move(picture.warnings)};
 }
 

@@ -232,6 +232,7 @@ Result<NewScene> CollectScene(const Footage& footage, const StatedScene& stated,
   NewScene scene;
   scene.marker = footage.marker;
   scene.lens_from = footage.film.lens.from;
+  if (!footage.film.lens.note.empty()) scene.notes.push_back(footage.film.lens.note);
   scene.model = stated.model;
   scene.film = footage.film.file.filename().string();
   ForEachSource(footage, [&](const FilmLook& look) {

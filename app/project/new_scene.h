@@ -52,7 +52,7 @@ struct NewScene {
   std::string lens_from;
   std::optional<std::filesystem::path> model;
   std::string film;                ///< Name of the film, for comments.
-  std::vector<std::string> notes;  ///< Tags that cannot be true, as sentences.
+  std::vector<std::string> notes;  ///< Impossible tags, a scaled calibration: sentences.
 };
 
 /// The film of a project, and photographs taken beside it.

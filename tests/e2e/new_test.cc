@@ -104,6 +104,28 @@ TEST(New, TakesTheHeadingFromTheCompassOfAPhotograph) {
               AllOf(HasSubstr("heading_magnetic_deg = "), HasSubstr("still.jpg")));
 }
 
+TEST(New, ScalesACalibrationOfAnotherSize) {
+  const TemporaryFolder folder;
+  WritePhoneFilm(folder / "walk.mov");
+  const auto make = [&](int height) {
+    WriteFile(folder / "camera.json",
+              R"({"image_width": 1280, "image_height": )" + std::to_string(height) +
+                  R"(, "model": "opencv-radtan", "fx": 1210, "fy": 1210, "cx": 639.5,
+                      "cy": 479.5, "distortion_k1_k2_p1_p2_k3": [0, 0, 0, 0, 0]})");
+    std::vector<std::string> arguments = Stated(folder / "walk.mov", folder / "site");
+    arguments.insert(arguments.end(), {"--calibration", folder / "camera.json", "--json"});
+    return RunPleinair(arguments);
+  };
+  ExpectRefused(make(720), "another shape");
+  const RunResult made = make(960);
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_THAT(nlohmann::json::parse(made.out)["warnings"].dump(), HasSubstr("scaled to 640x480"));
+  EXPECT_THAT(ReadFile(folder / "site/scene.toml"), HasSubstr("scaled to 640x480"));
+  const auto recording = nlohmann::json::parse(ReadFile(folder / "site/recording.json"));
+  EXPECT_EQ(recording["calibration"]["image_width"], 640);
+  EXPECT_NEAR(recording["calibration"]["fx"].get<double>(), 605.0, 1e-9);
+}
+
 TEST(New, APhotographAloneIsAProject) {
   const TemporaryFolder folder;
   const fs::path photo = folder / "100%.jpg";
