@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "session/marker_tracks.h"
+#include "tracker/pose/anchor_fit.h"
 #include "tracker/pose/planar_pose.h"
 
 namespace pleinair::session {
@@ -162,6 +163,35 @@ TEST(Anchors, TheObjectStaysWhileMarkersAreCovered) {
       std::count_if(path.observations.begin(), path.observations.end(),
                     [](const Observation& at) { return at.source == PoseSource::kMotion; });
   EXPECT_EQ(filled, summary.filled);
+}
+
+TEST(Anchors, AFewWrongCornersHardlyMoveThePose) {
+  // Three placed markers; one corner is half a marker off, then another one, too.
+  const CameraModel camera = PhoneLens();
+  std::mt19937 random(3);
+  const std::array<Transform<Marker, Marker>, 3> places{
+      {{Mat3{}, {}}, {About(2, 0.4), {0.7, 0.2, 0.0}}, {About(2, -0.2), {0.3, -0.5, 0.0}}}};
+  const Transform<Camera, Marker> pose = TruePose(1.0);
+  std::vector<tracker::AnchorMarker> markers;
+  tracker::AnchorFrame frame;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    constexpr double kSize_m = 0.3;
+    markers.push_back({kSize_m, places[i]});
+    const tracker::MarkerObservation seen =
+        Seen(camera, static_cast<int>(i), pose * places[i], kSize_m, kSize_m, &random);
+    frame.push_back({i, seen.detection.corners_px, kNoise_px, seen.pose.best.camera_from_marker});
+  }
+  const auto error_m = [&] {
+    const auto fitted = tracker::FitAnchoredPose(camera, markers, frame);
+    EXPECT_TRUE(fitted);
+    const Point<Marker> object{Place().object_m};
+    return fitted ? Norm((fitted->camera_from_reference * object).xyz - (pose * object).xyz) : 1.0;
+  };
+  EXPECT_LT(error_m(), 0.001);
+  frame[2].corners_px[1] = frame[2].corners_px[1] + Vec2{100.0, -30.0};
+  EXPECT_LT(error_m(), 0.001);
+  frame[0].corners_px[2] = frame[0].corners_px[2] + Vec2{-8.0, 15.0};
+  EXPECT_LT(error_m(), 0.002);
 }
 
 TEST(Anchors, LongGapsStayAndUnseenMarkersAreReported) {

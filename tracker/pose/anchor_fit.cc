@@ -21,36 +21,44 @@ namespace {
 /// Clockwise from top-left, in edges from the centre.
 constexpr std::array<Vec2, 4> kAnchorCorners{{{-0.5, 0.5}, {0.5, 0.5}, {0.5, -0.5}, {-0.5, -0.5}}};
 
-/// Distances of the corners of a sighting from their projections, in standard deviations.
-struct SightingCost {
+/// Huber's threshold on the distance of a corner in standard deviations: 96 % of correct corners
+/// are nearer (chi-square distribution of two degrees of freedom).
+constexpr double kHuberDeviations = 2.5;
+
+/// Distance of a corner of a sighting from its projection, in standard deviations.
+struct CornerCost {
   const CameraModel& camera;
   const AnchorSighting& sighting;
   double size_m;
+  std::size_t corner;
 
   template <typename T>
   bool operator()(const T* camera_from_reference, const T* reference_from_marker,
                   T* residuals) const {
-    for (std::size_t i = 0; i < 4; ++i) {
-      const T corner[3] = {T(kAnchorCorners[i].x * size_m), T(kAnchorCorners[i].y * size_m), T(0)};
-      T in_reference[3], in_camera[3];
-      ceres::AngleAxisRotatePoint(reference_from_marker, corner, in_reference);
-      for (int k = 0; k < 3; ++k) in_reference[k] += reference_from_marker[3 + k];
-      ceres::AngleAxisRotatePoint(camera_from_reference, in_reference, in_camera);
-      for (int k = 0; k < 3; ++k) in_camera[k] += camera_from_reference[3 + k];
-      if (in_camera[2] < T(1e-6)) return false;
-      T u, v;
-      ProjectToPixel(camera, in_camera[0], in_camera[1], in_camera[2], &u, &v);
-      residuals[2 * i] = (u - sighting.corners_px[i].x) / sighting.deviation_px;
-      residuals[2 * i + 1] = (v - sighting.corners_px[i].y) / sighting.deviation_px;
-    }
+    const Vec2 at = kAnchorCorners[corner];
+    const T on_marker[3] = {T(at.x * size_m), T(at.y * size_m), T(0)};
+    T in_reference[3], in_camera[3];
+    ceres::AngleAxisRotatePoint(reference_from_marker, on_marker, in_reference);
+    for (int k = 0; k < 3; ++k) in_reference[k] += reference_from_marker[3 + k];
+    ceres::AngleAxisRotatePoint(camera_from_reference, in_reference, in_camera);
+    for (int k = 0; k < 3; ++k) in_camera[k] += camera_from_reference[3 + k];
+    if (in_camera[2] < T(1e-6)) return false;
+    T u, v;
+    ProjectToPixel(camera, in_camera[0], in_camera[1], in_camera[2], &u, &v);
+    residuals[0] = (u - sighting.corners_px[corner].x) / sighting.deviation_px;
+    residuals[1] = (v - sighting.corners_px[corner].y) / sighting.deviation_px;
     return true;
   }
 };
 
-ceres::CostFunction* CostOf(const CameraModel& camera, const AnchorSighting& sighting,
-                            double size_m) {
-  return new ceres::AutoDiffCostFunction<SightingCost, 8, 6, 6>(
-      new SightingCost{camera, sighting, size_m});
+/// Adds the corners of a sighting to a problem, each with Huber's loss.
+void AddCorners(const CameraModel& camera, const AnchorSighting& sighting, double size_m,
+                double* pose, double* anchor, ceres::Problem* problem) {
+  for (std::size_t corner = 0; corner < kAnchorCorners.size(); ++corner) {
+    problem->AddResidualBlock(new ceres::AutoDiffCostFunction<CornerCost, 2, 6, 6>(
+                                  new CornerCost{camera, sighting, size_m, corner}),
+                              new ceres::HuberLoss(kHuberDeviations), pose, anchor);
+  }
 }
 
 ceres::Solver::Options QuietOptions(ceres::LinearSolverType solver) {
@@ -133,8 +141,7 @@ void Adjust(const CameraModel& camera, const std::vector<AnchorFrame>& frames,
       const AnchorMarker& marker = (*markers)[sighting.marker];
       if (!marker.reference_from_marker) continue;
       double* anchor = anchors[sighting.marker].data();
-      problem.AddResidualBlock(CostOf(camera, sighting, marker.size_m), new ceres::HuberLoss(3.0),
-                               poses.back().data(), anchor);
+      AddCorners(camera, sighting, marker.size_m, poses.back().data(), anchor, &problem);
       if (!free[sighting.marker]) problem.SetParameterBlockConstant(anchor);
       order->AddElementToGroup(anchor, 1);
     }
@@ -187,8 +194,7 @@ std::optional<AnchoredPose> FitAnchoredPose(const CameraModel& camera,
       const AnchorMarker& marker = markers[sighting.marker];
       if (!marker.reference_from_marker) continue;
       anchors.push_back(NumbersOf(*marker.reference_from_marker));
-      problem.AddResidualBlock(CostOf(camera, sighting, marker.size_m), nullptr, pose.data(),
-                               anchors.back().data());
+      AddCorners(camera, sighting, marker.size_m, pose.data(), anchors.back().data(), &problem);
       problem.SetParameterBlockConstant(anchors.back().data());
     }
     ceres::Solver::Summary summary;
@@ -198,10 +204,13 @@ std::optional<AnchoredPose> FitAnchoredPose(const CameraModel& camera,
     ceres::Solve(options, &problem, &summary);
     if (!summary.IsSolutionUsable() || !(summary.final_cost < least)) continue;
     least = summary.final_cost;
-    // Costs are half the squares.
+    // Of all corners, also of the outliers. Costs are half the squares.
+    ceres::Problem::EvaluateOptions squares;
+    squares.apply_loss_function = false;
+    double cost = 0.0;
+    problem.Evaluate(squares, &cost, nullptr, nullptr, nullptr);
     const double corners = 4.0 * static_cast<double>(anchors.size());
-    best = AnchoredPose{PoseOf<Camera>(pose),
-                        from.deviation_px * std::sqrt(2.0 * summary.final_cost / corners)};
+    best = AnchoredPose{PoseOf<Camera>(pose), from.deviation_px * std::sqrt(2.0 * cost / corners)};
   }
   return best;
 }

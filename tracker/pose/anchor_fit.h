@@ -30,10 +30,10 @@ struct AnchorSighting {
 using AnchorFrame = std::vector<AnchorSighting>;
 
 /// Places the markers without a pose by bundle adjustment of the frames that show two or more
-/// markers (Triggs et al. 2000, "Bundle adjustment"). It minimises the squared distances of all
-/// corners from their projections, with Huber's loss. The unknowns are the poses of the frames and
-/// of these markers. Takes at most 300 frames. A marker that no frame shows beside a placed one
-/// stays without a pose.
+/// markers (Triggs et al. 2000, "Bundle adjustment"). It minimises the distances of all corners
+/// from their projections, with Huber's loss per corner (Huber 1964). The unknowns are the poses of
+/// the frames and of these markers. Takes at most 300 frames. A marker that no frame shows beside a
+/// placed one stays without a pose.
 void PlaceAnchorMarkers(const CameraModel& camera, const std::vector<AnchorFrame>& frames,
                         std::vector<AnchorMarker>* markers);
 
@@ -43,8 +43,9 @@ struct AnchoredPose {
   double reprojection_rms_px = 0.0;
 };
 
-/// Fits the pose of a frame to the corners of all placed markers that it shows. Nothing if it shows
-/// none.
+/// Fits the pose of a frame to the corners of all placed markers that it shows, with the same loss.
+/// A corner that is far off pulls no more than one that is 2.5 standard deviations off. A marker
+/// that was moved still turns the pose about the others. Nothing if the frame shows none.
 std::optional<AnchoredPose> FitAnchoredPose(const CameraModel& camera,
                                             const std::vector<AnchorMarker>& markers,
                                             const AnchorFrame& frame);
