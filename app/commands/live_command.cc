@@ -16,12 +16,13 @@
 #include <CLI/CLI.hpp>
 
 #include "app/commands/command.h"
+#include "app/live/live_arguments.h"
 #include "app/live/live_messages.h"
 #include "app/live/live_report.h"
 #include "app/live/live_session.h"
-#include "app/live/paced_recording.h"
+#include "app/live/live_source.h"
+#include "app/live/scene_file.h"
 #include "app/options/light_options.h"
-#include "app/options/local_time.h"
 #include "app/options/model_options.h"
 #include "app/options/number_range.h"
 #include "app/options/option_use.h"
@@ -32,9 +33,7 @@
 #ifdef PLEINAIR_WINDOW
 #include "app/window/live_window.h"
 #endif
-#include "devices/calibration/calibration.h"
 #include "devices/cameras/live_camera.h"
-#include "devices/recordings/recording.h"
 
 namespace pleinair::app {
 namespace {
@@ -46,6 +45,9 @@ constexpr const char* kLiveExamples =
     "  pleinair live --camera v4l2:serial=0001 --calibration camera.json --scene site/scene.toml\n"
     "      --hold-exposure 0.008 --record out/walk --headless\n"
     "  pleinair live --camera file:recordings/courtyard_midday --loop\n"
+    "  pleinair live --camera file:site --loop --save-scene site/moved.toml\n"
+    "      (arrange the objects, save with Ctrl+S, then 'pleinair replay site --scene "
+    "site/moved.toml')\n"
     "  pleinair live --camera file:recordings/courtyard_midday --headless --lossless\n"
     "  pleinair live --camera file:recordings/courtyard_midday --headless --record out/take "
     "-o out/live\n"
@@ -56,61 +58,6 @@ constexpr const char* kLiveExamples =
 
 // Interval of the reports in a long run, if they are enabled.
 constexpr double kReportEvery_s = 60.0;
-
-/// Camera controls to lock.
-struct LiveHolds {
-  bool all = false;  ///< Controls without a value are locked at their current value.
-  std::optional<double> exposure_s, gain, white_balance_k, focus;
-};
-
-/// The camera or recording, and its descriptions.
-struct LiveInputs {
-  std::string camera, scene, calibration, time, pixel_format;
-  std::optional<double> rate_hz;
-  bool loop = false;
-  LiveHolds holds;
-};
-
-struct LiveOutputs {
-  std::string recording, detections, screenshot;
-  std::string folder;
-  std::vector<std::string> exports;
-};
-
-struct LiveWindowArguments {
-  std::string size, screenshots = ".";
-  double ui_scale = 0.0;
-};
-
-struct LiveArguments {
-  LiveInputs input;
-  LiveOutputs output;
-  LiveWindowArguments window;
-  session::LightOptions light;
-  std::optional<double> seconds, report_every_s;
-  bool headless = false, lossless = false, json = false, shadow_debug = false;
-};
-
-/// The source of frames with its metadata.
-struct LiveSource {
-  std::unique_ptr<devices::FrameSource> frames;
-  devices::LiveCamera* camera = nullptr;  ///< Null for a recording.
-  CameraModel lens;
-  std::optional<scene::SceneDescription> scene;
-  CameraResponse response = {};  ///< By a film's tags.
-};
-
-std::vector<devices::ControlRequest> ControlsOf(const LiveHolds& holds) {
-  std::vector<devices::ControlRequest> control_requests;
-  const auto add = [&](devices::CameraControl control, const std::optional<double>& value) {
-    if (value || holds.all) control_requests.push_back({control, value});
-  };
-  add(devices::CameraControl::kExposure, holds.exposure_s);
-  add(devices::CameraControl::kGain, holds.gain);
-  add(devices::CameraControl::kWhiteBalance, holds.white_balance_k);
-  add(devices::CameraControl::kFocus, holds.focus);
-  return control_requests;
-}
 
 /// Reports every requested option that has no effect.
 Result<void> CheckLiveOptions(const CLI::App& command, const LiveArguments& arguments,
@@ -134,7 +81,8 @@ Result<void> CheckLiveOptions(const CLI::App& command, const LiveArguments& argu
                 {"--window", !arguments.headless, kWindow},
                 {"--ui-scale", !arguments.headless, kWindow},
                 {"--pictures", !arguments.headless, kWindow},
-                {"--screenshot", arguments.headless, "--headless; in the window press Ctrl+S"}}));
+                {"--save-scene", !arguments.headless, kWindow},
+                {"--screenshot", arguments.headless, "--headless; in the window press Ctrl+P"}}));
   PLEINAIR_RETURN_IF_ERROR(CheckLightCache(arguments.light.cache));
   if (arguments.output.screenshot.empty()) return {};
   const std::filesystem::path folder =
@@ -144,72 +92,6 @@ Result<void> CheckLiveOptions(const CLI::App& command, const LiveArguments& argu
     return InputError("--screenshot", "there is no folder " + folder.string(), "make it first");
   }
   return {};
-}
-
-Result<LiveSource> OpenFile(const devices::CameraUri& uri, const LiveArguments& arguments) {
-  devices::RecordingOptions options;
-  if (!arguments.input.calibration.empty()) options.calibration = arguments.input.calibration;
-  if (!arguments.input.scene.empty()) options.scene = arguments.input.scene;
-  PLEINAIR_ASSIGN_OR_RETURN(devices::Recording recording,
-                            devices::OpenRecording(uri.value, options));
-  if (arguments.lossless && (arguments.input.loop || !arguments.headless)) {
-    return InputError("--lossless",
-                      "processes the recording once, as fast as this machine can, without a window",
-                      "add --headless and leave --loop out");
-  }
-  LiveSource source{std::move(recording.frames), nullptr, recording.camera, recording.scene,
-                    devices::ResponseOf(recording.curve)};
-  if (arguments.lossless) return source;
-  const auto reopen = [path = uri.value,
-                       options]() -> Result<std::unique_ptr<devices::FrameSource>> {
-    PLEINAIR_ASSIGN_OR_RETURN(devices::Recording again, devices::OpenRecording(path, options));
-    return std::move(again.frames);
-  };
-  PLEINAIR_ASSIGN_OR_RETURN(
-      source.frames, PacedRecording::Open(reopen, {arguments.input.rate_hz, arguments.input.loop}));
-  return source;
-}
-
-Result<LiveSource> OpenCamera(const devices::CameraUri& uri, const LiveArguments& arguments) {
-  if (arguments.lossless) {
-    return InputError("--lossless", "is for recordings: a camera does not wait", "leave it out");
-  }
-  if (arguments.input.calibration.empty()) {
-    return InputError("--calibration", "is missing: a camera does not report its lens",
-                      "calibrate it once ('pleinair calibrate') and name the file");
-  }
-  LiveSource source;
-  PLEINAIR_ASSIGN_OR_RETURN(source.lens, devices::ReadCalibration(arguments.input.calibration));
-  if (!arguments.input.scene.empty()) {
-    PLEINAIR_ASSIGN_OR_RETURN(source.scene, scene::ReadSceneDescription(arguments.input.scene));
-  }
-  devices::LiveCameraOptions options;
-  options.uri = uri;
-  options.pictures.size = ImageSize{source.lens.width, source.lens.height};
-  options.pictures.rate_hz = arguments.input.rate_hz;
-  if (!arguments.input.pixel_format.empty()) {
-    options.pictures.format = devices::PixelFormatByName(arguments.input.pixel_format);
-    if (!options.pictures.format) {
-      return InputError("--format", "\"" + arguments.input.pixel_format + "\" is not supported",
-                        "'pleinair devices' lists what the camera sends");
-    }
-  }
-  options.controls = ControlsOf(arguments.input.holds);
-  PLEINAIR_ASSIGN_OR_RETURN(auto camera, devices::LiveCamera::Open(std::move(options)));
-  source.camera = camera.get();
-  source.frames = std::move(camera);
-  return source;
-}
-
-Result<std::optional<UtcTime>> StartOf(const LiveArguments& arguments, const LiveSource& source) {
-  if (arguments.input.time == "now") return std::nullopt;
-  if (!arguments.input.time.empty()) {
-    PLEINAIR_ASSIGN_OR_RETURN(const UtcTime time, ParseTimeOption("--time", arguments.input.time));
-    return time;
-  }
-  // A recording has its own start time; a camera uses the current time.
-  if (source.camera != nullptr) return std::nullopt;
-  return source.scene->place_time.start;
 }
 
 /// Draws until the end, the time limit or Ctrl-C; returns the last image.
@@ -236,9 +118,11 @@ Result<RgbImage> ShowAll([[maybe_unused]] LiveSession& session, [[maybe_unused]]
                          [[maybe_unused]] const LiveSource& source,
                          [[maybe_unused]] const LiveArguments& arguments,
                          [[maybe_unused]] const scene::SceneDescription& scene,
+                         [[maybe_unused]] SceneFile* scene_file,
                          [[maybe_unused]] LiveReport* report) {
 #ifdef PLEINAIR_WINDOW
   LiveWindowOptions options;
+  options.scene_file = scene_file;
   options.camera = source.lens;
   options.scene = scene;
   options.drawing.show_shadow_maps = arguments.shadow_debug;
@@ -282,13 +166,16 @@ Result<void> RunLive(const CLI::App& command, const LiveArguments& arguments) {
   if (!arguments.window.size.empty()) {
     PLEINAIR_ASSIGN_OR_RETURN(window, ParsePictureSize("--window", arguments.window.size));
   }
-  PLEINAIR_ASSIGN_OR_RETURN(LiveSource source,
-                            is_file ? OpenFile(uri, arguments) : OpenCamera(uri, arguments));
+  PLEINAIR_ASSIGN_OR_RETURN(LiveSource source, OpenLiveSource(uri, arguments));
   if (!source.scene) {
     return InputError("--scene",
                       "is missing: it describes the place, the marker and the virtual objects",
                       "write one (docs/guide/reference/recordings.md)");
   }
+  PLEINAIR_ASSIGN_OR_RETURN(
+      SceneFile scene_file,
+      SceneFile::Open(*source.scene, session::UneditedScene(*source.scene, {}),
+                      arguments.window.saved_scene));
   KeepNoFreedPictures();
   LiveOptions options;
   options.camera = source.lens;
@@ -315,8 +202,9 @@ Result<void> RunLive(const CLI::App& command, const LiveArguments& arguments) {
   PLEINAIR_ASSIGN_OR_RETURN(auto session,
                             LiveSession::Create(std::move(source.frames), std::move(options)));
   LiveReport report(arguments.report_every_s.value_or(arguments.json ? kReportEvery_s : 0.0));
-  auto last = arguments.headless ? DrawAll(*session, source, arguments, &report)
-                                 : ShowAll(*session, window, source, arguments, scene, &report);
+  auto last = arguments.headless
+                  ? DrawAll(*session, source, arguments, &report)
+                  : ShowAll(*session, window, source, arguments, scene, &scene_file, &report);
   ReportEvents(source.camera, arguments.json);
   ReportControls(source.camera);
   session->Stop();
@@ -397,6 +285,11 @@ void AddLiveCommand(CLI::App& app, CommandResult& result) {
                    "Folder for the window's screenshots and recordings")
       ->check(CLI::ExistingDirectory)
       ->capture_default_str();
+  command
+      ->add_option("--save-scene", a.window.saved_scene,
+                   "Where the window saves the edited scene: a new file. Default: the scene's own "
+                   "scene.toml")
+      ->type_name("FILE");
   command->add_flag("--loop", a.input.loop, "Play a recording again and again");
   command->add_flag("--lossless", a.lossless,
                     "Of a recording, track and draw every frame, however long that takes");

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <iostream>
 #include <utility>
 
 #include "app/terminal/interrupt.h"
@@ -118,6 +119,9 @@ class LiveWindow {
       }
     }
     frames_->Stop();
+    if (options_.scene_file != nullptr && options_.scene_file->IsUnsaved(state_.edit)) {
+      std::cerr << "warning: the changes of the scene were not saved (Ctrl+S saves them)\n";
+    }
     return {};
   }
 
@@ -274,6 +278,10 @@ class LiveWindow {
     if (state_.requests.screenshot && !last_picture_.empty()) {
       state_.requests.screenshot = false;
       PLEINAIR_RETURN_IF_ERROR(Save("picture", last_picture_));
+    }
+    if (std::exchange(state_.requests.save_scene, false) && options_.scene_file != nullptr) {
+      const auto file = options_.scene_file->Save(state_.edit);
+      state_.message = file ? "saved the scene as " + file->string() : file.error().Message();
     }
     if (std::exchange(state_.requests.recording_change, false)) {
       if (session_.recording()) {

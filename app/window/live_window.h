@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/live/live_session.h"
+#include "app/live/scene_file.h"
 #include "base/error.h"
 #include "scene/scene_description.h"
 #include "session/scene_edit.h"
@@ -28,6 +29,7 @@ struct LiveWindowOptions {
   int width = 0, height = 0;                ///< Size of the window; 0: fits the screen.
   double ui_scale = 0.0;                    ///< Font scale; 0: the screen's scale.
   std::filesystem::path screenshots = ".";  ///< Folder of screenshots and recordings.
+  SceneFile* scene_file = nullptr;          ///< Where "save scene" writes; null: nowhere.
   /// Reports the camera events since the last call; returns the last one as text.
   std::function<std::string()> poll_camera;
 };

@@ -246,6 +246,10 @@ void ScenePanel::North(WindowState* state) {
 }
 
 void ScenePanel::Objects(WindowState* state) {
+  if (ImGui::Button("Save scene")) Do(Action::kSaveScene, false, {}, state);
+  Hint(
+      "Ctrl+S. Writes moved objects, location, and what is set by hand of heading and air into the "
+      "scene's file. The hour and the drawing options are no part of a scene.");
   if (state->boxes.empty()) Quiet("the scene has no virtual object");
   const int count = static_cast<int>(std::min(state->boxes.size(), state->edit.objects.size()));
   for (int i = 0; i < count; ++i) {

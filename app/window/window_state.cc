@@ -112,6 +112,9 @@ void Do(Action action, bool fine, UtcTime now, WindowState* state) {
     case Action::kClose:
       state->requests.close = true;
       return;
+    case Action::kSaveScene:
+      state->requests.save_scene = true;
+      return;
     case Action::kScreenshot:
       state->requests.screenshot = true;
       return;

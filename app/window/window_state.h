@@ -41,6 +41,7 @@ struct LiveStatus {
 /// Requests of keys and panel, which the window carries out.
 struct WindowRequests {
   bool screenshot = false, window_screenshot = false;
+  bool save_scene = false;
   bool recording_change = false, exposure_change = false;
   bool close = false;
 };
@@ -79,6 +80,7 @@ enum class Action {
   kHelp,
   kPanel,
   kClose,
+  kSaveScene,
   kScreenshot,
   kRecord,
   kNow,

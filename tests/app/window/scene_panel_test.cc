@@ -175,6 +175,8 @@ TEST_F(PanelInHands, NorthIsTypedAndButtonsAskTheWindow) {
   EXPECT_TRUE(state_.requests.recording_change);
   Push(Of("Screenshot"));
   EXPECT_TRUE(state_.requests.screenshot);
+  Push(Of("Save scene"));
+  EXPECT_TRUE(state_.requests.save_scene);
   Push(Of("lock exposure"));
   EXPECT_TRUE(state_.exposure_locked);
   EXPECT_TRUE(state_.requests.exposure_change);

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "base/error.h"
+#include "scene/scene_description.h"
+#include "session/scene_edit.h"
+
+namespace pleinair::app {
+
+/// The file into which an edited scene is saved (session/scene_saving.h).
+class SceneFile {
+ public:
+  /// `target`: a new file; empty: the file of the scene, if that is a scene.toml. `unedited`: the
+  /// edit that the scene is shown with at first. Errors: the new file exists; it is not in the
+  /// folder of the scene.toml that it is made from, whose paths are relative.
+  static Result<SceneFile> Open(const scene::SceneDescription& scene,
+                                const session::SceneEdit& unedited,
+                                const std::filesystem::path& target);
+
+  /// Writes the changes since the last call as a whole; returns the file. Errors: the file was
+  /// changed by another program since it was read; there is no scene.toml and no new file; values
+  /// that a scene cannot hold; the folder cannot be written. The file is then as before.
+  Result<std::filesystem::path> Save(const session::SceneEdit& edit);
+
+  /// True if the edit changes the scene since the last call of Save().
+  bool IsUnsaved(const session::SceneEdit& edit) const;
+
+ private:
+  SceneFile() = default;
+  Result<void> CheckUnchanged() const;
+
+  scene::SceneDescription scene_;
+  std::filesystem::path path_;          // Empty: there is none.
+  std::string text_;                    // With the edit that was saved last.
+  std::optional<std::string> on_disk_;  // What the file should hold; nothing: it should not exist.
+  session::SceneEdit saved_;
+};
+
+}  // namespace pleinair::app
