@@ -44,6 +44,7 @@ Result<DescribedSurface> BoxSurface(Vec3 from, Vec3 to) {
   constexpr std::array<std::array<int, 4>, 6> kFaces = {
       {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}};
   DescribedSurface box;
+  box.kind = SurfaceKind::kBox;
   box.name = "box";
   for (const auto& face : kFaces) {
     std::vector<Vec3>& polygon = box.polygons.emplace_back();
@@ -90,6 +91,7 @@ Result<DescribedSurface> WallSurface(std::vector<Vec3> corners) {
     }
   }
   DescribedSurface wall;
+  wall.kind = SurfaceKind::kWall;
   wall.name = "wall";
   wall.polygons.push_back(std::move(corners));
   return wall;

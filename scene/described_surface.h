@@ -11,9 +11,12 @@ namespace pleinair::scene {
 /// Linear diffuse reflectance of surfaces without a color: dry ground, light stone.
 inline constexpr LinearRgb kUsualReflectance{0.35, 0.33, 0.30};
 
+enum class SurfaceKind { kGround, kBox, kWall };
+
 /// A real surface that the scene itself describes, in place of a model file: phantoms without a
 /// modeller.
 struct DescribedSurface {
+  SurfaceKind kind = SurfaceKind::kGround;
   std::string name;  ///< "ground", "box 1", "wall 2".
   /// Convex and plane, at least three corners each, in metres. Boxes: counter-clockwise from
   /// outside.

@@ -10,6 +10,7 @@
 #include "compositor/photometry/sky_state.h"
 #include "scene/marker_heading.h"
 #include "scene/sun_over_place.h"
+#include "session/scene_renderer.h"
 
 namespace pleinair::session {
 namespace {
@@ -34,7 +35,8 @@ void LowerPriority() {
 
 bool BackgroundLight::Wanted::operator==(const Wanted& other) const {
   return edit.sky == other.edit.sky && edit.heading_deg == other.edit.heading_deg &&
-         edit.objects == other.edit.objects && marker_reflectance == other.marker_reflectance;
+         edit.objects == other.edit.objects && edit.phantoms == other.edit.phantoms &&
+         marker_reflectance == other.marker_reflectance;
 }
 
 BackgroundLight::BackgroundLight(Setup setup)
@@ -46,7 +48,7 @@ BackgroundLight::BackgroundLight(Setup setup)
 
 Result<std::unique_ptr<BackgroundLight>> BackgroundLight::Create(Setup setup) {
   std::unique_ptr<BackgroundLight> light(new BackgroundLight(std::move(setup)));
-  PLEINAIR_RETURN_IF_ERROR(light->Place(light->setup_.edit.objects));
+  PLEINAIR_RETURN_IF_ERROR(light->Place(light->setup_.edit));
   light->Make(light->shared_.wanted);
   light->thread_ = std::thread([self = light.get()] { self->Run(); });
   return light;
@@ -113,9 +115,9 @@ void BackgroundLight::Run() {
       shown = std::exchange(shared_.shown, std::nullopt);
     }
     TakeCoefficients(worker);
-    if (wanted.edit.objects != placed_.objects) {
-      // Objects that cannot be placed keep their last placement and light.
-      if (!Place(wanted.edit.objects)) wanted.edit.objects = placed_.objects;
+    if (wanted.edit.objects != placed_.objects || wanted.edit.phantoms != placed_.phantoms) {
+      // Surfaces that cannot be placed leave the last light in use.
+      if (!Place(wanted.edit)) continue;
     }
     if (NeedsLight(wanted)) Make(wanted);
     if (shown) EstimateLight(*shown, wanted);
@@ -125,18 +127,28 @@ void BackgroundLight::Run() {
   }
 }
 
-/// Builds a solver for these object placements.
-Result<void> BackgroundLight::Place(const std::vector<ObjectPlace>& objects) {
-  placed_.objects = objects;
-  const std::size_t phantoms = setup_.placed.size() - objects.size();
-  for (std::size_t i = 0; i < objects.size(); ++i) {
-    MoveTo(objects[i], &setup_.placed[phantoms + i]);
+/// Builds a solver for the placements of an edit.
+Result<void> BackgroundLight::Place(const SceneEdit& edit) {
+  const std::size_t phantoms = setup_.placed.size() - edit.objects.size();
+  for (std::size_t i = 0; i < edit.objects.size(); ++i) {
+    MoveTo(edit.objects[i], &setup_.placed[phantoms + i]);
+  }
+  if (edit.phantoms != placed_.phantoms) {
+    const scene::SceneDescription scene = WithEdit(setup_.scene, edit);
+    for (std::size_t i = 0; i < phantoms; ++i) {
+      if (!scene.phantoms[i].surface) continue;
+      PLEINAIR_ASSIGN_OR_RETURN(setup_.placed[i],
+                                PlaceModel(scene.phantoms[i], true, scene.marker));
+    }
+    known_.estimator.reset();  // It has seen shadows of other phantoms.
   }
   compositor::LightSolverOptions options;
   options.rays_per_vertex = kFewRays;
   options.max_patches = setup_.light.overrides.max_patches.value_or(options.max_patches);
   PLEINAIR_ASSIGN_OR_RETURN(placed_.solver,
                             compositor::LightSolver::Create(setup_.placed, options));
+  placed_.objects = edit.objects;
+  placed_.phantoms = edit.phantoms;
   placed_.coefficients.reset();  // They belong to another scene.
   made_.wanted.reset();
   return {};
@@ -247,6 +259,7 @@ void BackgroundLight::WantCoefficients(const Wanted& wanted,
   options.division = setup_.light.sky_division;
   // Trial edits would fill the disk: each object placement has its own file.
   const bool as_begun = wanted.edit.objects == setup_.edit.objects &&
+                        wanted.edit.phantoms == setup_.edit.phantoms &&
                         wanted.edit.convergence == setup_.edit.convergence;
   if (as_begun) options.cache = setup_.light.cache;
   worker->Want(placed_.solver, scene::MarkerFromWorld(setup_.scene.marker) * Vec3{0.0, 0.0, 1.0},

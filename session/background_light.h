@@ -30,9 +30,9 @@ namespace pleinair::session {
 /// A new light is computed when the sun has moved, the scene was edited, or frames gave an estimate
 /// of sun and sky. The first lights are traced with few rays. Meanwhile daylight coefficients are
 /// computed; with them each further light takes a fraction of a second. A moved object restarts
-/// this, and is drawn with the last light until its next light is ready. Afterwards the phantoms'
-/// shadows in the frames are used to estimate the light, as in replay, once a minute. LightFilter
-/// combines these estimates.
+/// this, and is drawn with the last light until its next light is ready. A moved phantom changes
+/// with its next light. Afterwards the phantoms' shadows in the frames are used to estimate the
+/// light, as in replay, once a minute. LightFilter combines these estimates.
 class BackgroundLight {
  public:
   struct Setup {
@@ -91,7 +91,7 @@ class BackgroundLight {
 
   explicit BackgroundLight(Setup setup);
   void Run();
-  Result<void> Place(const std::vector<ObjectPlace>& objects);
+  Result<void> Place(const SceneEdit& edit);
   void Make(const Wanted& wanted);
   bool NeedsLight(const Wanted& wanted) const;
   void EstimateLight(const Shown& shown, const Wanted& wanted);
@@ -105,6 +105,7 @@ class BackgroundLight {
   struct PlacedScene {
     std::shared_ptr<const compositor::LightSolver> solver{};
     std::vector<ObjectPlace> objects{};
+    std::vector<SurfacePlace> phantoms{};
     std::shared_ptr<const compositor::DaylightCoefficients> coefficients{};
     double convergence = 0.0;  // Of the coefficients.
     std::shared_ptr<const compositor::LightSolver>

@@ -44,6 +44,13 @@ SceneEdit UneditedScene(const scene::SceneDescription& scene,
   for (const scene::ModelReference& object : scene.objects) {
     edit.objects.push_back({object.translation_m, object.rotation_deg, object.scale});
   }
+  for (const scene::ModelReference& phantom : scene.phantoms) {
+    SurfacePlace& place = edit.phantoms.emplace_back();
+    place.translation_m = phantom.translation_m;
+    if (phantom.surface && phantom.surface->kind == scene::SurfaceKind::kWall) {
+      place.corners_m = phantom.surface->polygons.at(0);
+    }
+  }
   return edit;
 }
 
@@ -57,6 +64,12 @@ scene::SceneDescription WithEdit(const scene::SceneDescription& scene, const Sce
     edited.objects[i].translation_m = edit.objects[i].translation_m;
     edited.objects[i].rotation_deg = edit.objects[i].rotation_deg;
     edited.objects[i].scale = edit.objects[i].scale;
+  }
+  for (std::size_t i = 0; i < std::min(edited.phantoms.size(), edit.phantoms.size()); ++i) {
+    std::optional<scene::DescribedSurface>& surface = edited.phantoms[i].surface;
+    if (!surface) continue;
+    edited.phantoms[i].translation_m = edit.phantoms[i].translation_m;
+    if (!edit.phantoms[i].corners_m.empty()) surface->polygons = {edit.phantoms[i].corners_m};
   }
   return edited;
 }

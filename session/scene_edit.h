@@ -21,6 +21,13 @@ struct ObjectPlace {
   bool operator==(const ObjectPlace&) const = default;
 };
 
+/// Placement of a phantom that the scene describes without a file (scene/described_surface.h).
+struct SurfacePlace {
+  Vec3 translation_m;           ///< As in scene::ModelReference.
+  std::vector<Vec3> corners_m;  ///< Of a wall; else empty.
+  bool operator==(const SurfacePlace&) const = default;
+};
+
 /// Rotation about x, then y, then z.
 Mat3 RotationXyz(Vec3 degrees);
 
@@ -52,6 +59,8 @@ struct SceneEdit {
   Detail detail = Detail::kAutomatic;
   double convergence = 0.01;  ///< compositor::CoefficientOptions.
   std::vector<ObjectPlace> objects;
+  /// One per phantom. Those with a file stay where they are.
+  std::vector<SurfacePlace> phantoms;
   /// Keeps the exposure scale of the last estimate.
   bool lock_exposure = false;
   bool operator==(const SceneEdit&) const = default;
@@ -62,7 +71,8 @@ SceneEdit UneditedScene(const scene::SceneDescription& scene,
                         const compositor::ComposerOptions& drawing,
                         double convergence = SceneEdit{}.convergence);
 
-/// Applies an edit's objects, heading and location to a description. The described sky stays.
+/// Applies an edit's objects, surfaces, heading and location to a description. The described sky
+/// stays.
 scene::SceneDescription WithEdit(const scene::SceneDescription& scene, const SceneEdit& edit);
 
 /// Haze and clouds of a scene description (sky/daylight.h).

@@ -98,7 +98,8 @@ class SceneRenderer {
   Result<void> UseLight(std::shared_ptr<const BakedLighting> light);
 
   /// Changes the scene. Location, time, heading, drawing options and object placement apply at
-  /// once, the rest with the next light.
+  /// once, the rest with the next light. Described surfaces are the rest, too: their shape is that
+  /// of the light.
   Result<void> Edit(const SceneEdit& edit);
 
   /// Response of the camera: as in the scene, estimated, or sRGB.

@@ -49,6 +49,14 @@ std::string Triple(Vec3 v, int decimals) {
          "]";
 }
 
+std::string Triples(const std::vector<Vec3>& points, int decimals) {
+  std::string text = "[";
+  for (const Vec3& point : points) {
+    text += (text.size() > 1 ? ", " : "") + Triple(point, decimals);
+  }
+  return text + "]";
+}
+
 bool IsWithin(double value, double limit) {
   return std::isfinite(value) && std::abs(value) <= limit;
 }
@@ -107,6 +115,46 @@ void AddPlacement(std::size_t index, const ObjectPlace& from, const ObjectPlace&
   }
 }
 
+/// Height of the marker above the ground.
+double HeightAbove(const scene::ModelReference& ground, const SurfacePlace& place, bool upright) {
+  const Vec3 corner = ground.surface->polygons.at(0).at(0) + place.translation_m;
+  return upright ? -corner.y : -corner.z;
+}
+
+void AddSurfaces(const scene::SceneDescription& scene, const SceneEdit& from, const SceneEdit& to,
+                 std::vector<scene::TomlChange>* changes) {
+  const double half = HalfStep(kLengthDecimals);
+  std::size_t box = 0, wall = 0;
+  for (std::size_t i = 0; i < scene.phantoms.size(); ++i) {
+    if (!scene.phantoms[i].surface) continue;
+    const SurfacePlace& place = to.phantoms[i];
+    const bool differs = place != from.phantoms[i];
+    switch (scene.phantoms[i].surface->kind) {
+      case scene::SurfaceKind::kGround:
+        if (!differs) break;
+        changes->push_back(
+            {"ground", 0, "height_m",
+             Fixed(HeightAbove(scene.phantoms[i], place, scene.marker.upright), kLengthDecimals),
+             half});
+        break;
+      case scene::SurfaceKind::kBox:
+        if (differs) {
+          changes->push_back(
+              {"box", box, "translation_m", Triple(place.translation_m, kLengthDecimals), half});
+        }
+        ++box;
+        break;
+      case scene::SurfaceKind::kWall:
+        if (differs) {
+          changes->push_back(
+              {"wall", wall, "corners_m", Triples(place.corners_m, kLengthDecimals), half});
+        }
+        ++wall;
+        break;
+    }
+  }
+}
+
 Result<void> CheckRange(const SceneEdit& edit, const std::string& name) {
   constexpr double kMax_m = 1e7, kMax_deg = 1e7;  // As scenes are read.
   if (!IsWithin(edit.latitude_deg, 90.0) || !IsWithin(edit.longitude_deg, 180.0)) {
@@ -124,6 +172,12 @@ Result<void> CheckRange(const SceneEdit& edit, const std::string& name) {
     return InputError(name, "cannot hold the place of object " + std::to_string(i + 1),
                       "reset the object (Home)");
   }
+  for (const SurfacePlace& place : edit.phantoms) {
+    bool is_good = IsWithin(place.translation_m, kMax_m);
+    for (const Vec3& corner : place.corners_m) is_good = is_good && IsWithin(corner, kMax_m / 10.0);
+    if (is_good) continue;
+    return InputError(name, "cannot hold the place of a surface", "reset the surface (Home)");
+  }
   return {};
 }
 
@@ -139,6 +193,15 @@ bool HasPlacements(const scene::SceneFacts& facts, const SceneEdit& edit) {
       return false;
     }
   }
+  // Ground is no phantom of the file.
+  for (std::size_t i = 0; i < facts.phantoms.size(); ++i) {
+    const scene::ModelReference& written = facts.phantoms[i];
+    const SurfacePlace& wanted = edit.phantoms[i];
+    if (!IsWithin(written.translation_m - wanted.translation_m, metres)) return false;
+    for (std::size_t c = 0; c < wanted.corners_m.size(); ++c) {
+      if (!IsWithin(written.surface->polygons[0][c] - wanted.corners_m[c], metres)) return false;
+    }
+  }
   return true;
 }
 
@@ -149,7 +212,14 @@ Result<std::string> WithSavedEdit(std::string_view text, const scene::SceneDescr
   const std::string name = scene.file.string();
   PLEINAIR_RETURN_IF_ERROR(CheckRange(to, name));
   PLEINAIR_ASSIGN_OR_RETURN(const scene::SceneFacts read, scene::ParseSceneToml(text, name));
-  if (read.objects.size() != to.objects.size() || from.objects.size() != to.objects.size()) {
+  const std::size_t grounds =
+      !scene.phantoms.empty() && scene.phantoms.back().surface &&
+              scene.phantoms.back().surface->kind == scene::SurfaceKind::kGround
+          ? 1
+          : 0;
+  if (read.objects.size() != to.objects.size() || from.objects.size() != to.objects.size() ||
+      read.phantoms.size() + grounds != to.phantoms.size() ||
+      from.phantoms.size() != to.phantoms.size()) {
     return InputError(name, "has other objects than the scene that is shown",
                       "start the session again");
   }
@@ -159,10 +229,12 @@ Result<std::string> WithSavedEdit(std::string_view text, const scene::SceneDescr
   for (std::size_t i = 0; i < to.objects.size(); ++i) {
     AddPlacement(i, from.objects[i], to.objects[i], &changes);
   }
+  AddSurfaces(scene, from, to, &changes);
   PLEINAIR_ASSIGN_OR_RETURN(std::string changed, scene::ChangeToml(text, name, changes));
   // Whatever the form of the text, it is only returned if it reads back.
   const auto facts = scene::ParseSceneToml(changed, name);
-  if (!facts || facts->objects.size() != to.objects.size() || !HasPlacements(*facts, to)) {
+  if (!facts || facts->objects.size() != read.objects.size() ||
+      facts->phantoms.size() != read.phantoms.size() || !HasPlacements(*facts, to)) {
     return InputError(name, "is written in a form that cannot be changed in place",
                       "write its objects as [[object]] with one key a line");
   }
@@ -172,7 +244,7 @@ Result<std::string> WithSavedEdit(std::string_view text, const scene::SceneDescr
 bool ChangesScene(const SceneEdit& from, const SceneEdit& to) {
   return to.latitude_deg != from.latitude_deg || to.longitude_deg != from.longitude_deg ||
          (to.heading_deg && to.heading_deg != from.heading_deg) || (to.sky && to.sky != from.sky) ||
-         to.objects != from.objects;
+         to.objects != from.objects || to.phantoms != from.phantoms;
 }
 
 }  // namespace pleinair::session

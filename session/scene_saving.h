@@ -10,7 +10,8 @@
 namespace pleinair::session {
 
 /// Returns the text of a scene.toml with the changes from one edit to another: location, heading,
-/// haze, clouds, and the placement of objects. Only changed values differ (scene/toml_text.h).
+/// haze, clouds, the placement of objects and boxes, the corners of walls, and the height of the
+/// marker above the ground. Only changed values differ (scene/toml_text.h).
 /// Lengths are written to 0.1 mm, angles to 0.001°, locations to 1e-7°, scales to six digits; cloud
 /// cover becomes the nearest word for the sky. The hour, drawing options and locked exposures are
 /// no part of a scene and are not written. `scene`: as read from the text, with its file's name for

@@ -26,12 +26,13 @@ constexpr std::array kBindings = {
     KeyBinding{GLFW_KEY_KP_ADD, false, Action::kGrow, "", nullptr},
     KeyBinding{GLFW_KEY_MINUS, false, Action::kShrink, "", nullptr},
     KeyBinding{GLFW_KEY_KP_SUBTRACT, false, Action::kShrink, "", nullptr},
-    KeyBinding{GLFW_KEY_HOME, false, Action::kResetObject, "Home", "reset the object"},
+    KeyBinding{GLFW_KEY_HOME, false, Action::kResetObject, "Home", "reset the object or surface"},
     KeyBinding{GLFW_KEY_LEFT_BRACKET, false, Action::kEarlier, "[ ]", "ten minutes earlier, later"},
     KeyBinding{GLFW_KEY_RIGHT_BRACKET, false, Action::kLater, "", nullptr},
     KeyBinding{GLFW_KEY_N, false, Action::kNow, "N", "use the current time"},
     KeyBinding{GLFW_KEY_T, false, Action::kAsRecorded, "T", "use the images' time"},
     KeyBinding{GLFW_KEY_O, false, Action::kNorth, "O", "find north by a pole's shadow"},
+    KeyBinding{GLFW_KEY_G, false, Action::kSurfaces, "G", "move ground, boxes and walls"},
     KeyBinding{GLFW_KEY_M, false, Action::kShadowMaps, "M", "show shadow-map partitions and maps"},
     KeyBinding{GLFW_KEY_L, false, Action::kLockExposure, "L", "lock the exposure"},
     KeyBinding{GLFW_KEY_S, true, Action::kSaveScene, "Ctrl+S", "save the scene"},
@@ -64,7 +65,7 @@ void DrawKeyHelp(float screen_width, float screen_height, bool* open) {
       }
       row("Shift with them", "small steps");
       ImGui::TableNextRow();
-      row("Drag", "move an object over the ground");
+      row("Drag", "move an object over the ground (with G: a surface)");
       row("Shift+drag", "raise or lower it");
       row("Right drag", "turn it");
       row("Wheel over it", "larger, smaller");

@@ -54,6 +54,25 @@ void DrawBox(const PictureView& view, const WindowState& state, int object) {
   }
 }
 
+/// Outlines of ground, boxes and walls, with a plumb line from the marker to the ground.
+void DrawSurfaces(const PictureView& view, const WindowState& state) {
+  const scene::SceneDescription scene = session::WithEdit(state.scene, state.edit);
+  for (std::size_t i = 0; i < scene.phantoms.size(); ++i) {
+    const bool is_chosen = static_cast<int>(i) == state.selected_surface;
+    const ImU32 color = is_chosen ? kChosen : kChosenFaint;
+    const float width = is_chosen ? 2.0F : 1.0F;
+    for (const std::vector<Vec3>& polygon : PlacedPolygons(scene.phantoms[i])) {
+      for (std::size_t c = 0; c < polygon.size(); ++c) {
+        DrawLine(view, state, polygon[c], polygon[(c + 1) % polygon.size()], color, width);
+      }
+    }
+    const auto& surface = scene.phantoms[i].surface;
+    if (!surface || surface->kind != scene::SurfaceKind::kGround) continue;
+    const Vec3 foot = UpOf(scene.marker) * -GroundHeight(scene, scene.phantoms[i]);
+    DrawLine(view, state, {}, foot, color, width);
+  }
+}
+
 Vec3 ToSun(const WindowState& state) {
   return scene::SunOver(session::WithEdit(state.scene, state.edit).place_time, state.shown_time())
       .ToSun()
@@ -122,7 +141,9 @@ void PictureMouse::Update(const PictureView& view, const std::vector<ButtonEvent
                      UpOf(state->scene.marker));
     }
   }
-  if (state->selected >= 0 && state->selected < static_cast<int>(state->boxes.size())) {
+  if (state->overlays.moving_surfaces) {
+    DrawSurfaces(view, *state);
+  } else if (state->selected >= 0 && state->selected < static_cast<int>(state->boxes.size())) {
     DrawBox(view, *state, state->selected);
   }
   if (state->overlays.turning_north) DrawPole(view, *state);
@@ -141,6 +162,7 @@ void PictureMouse::Begin(const PictureView& view, const ButtonEvent& event, Wind
   }
   start_ = SightThrough(state->frame.camera, *state->frame.camera_from_marker,
                         view.PixelFromScreen(event.screen));
+  if (state->overlays.moving_surfaces && left) return BeginSurface(view, event, state);
   const auto picked = PickObject(state->boxes, state->edit.objects, start_);
   state->selected = picked.value_or(-1);
   if (!picked) return;
@@ -151,12 +173,30 @@ void PictureMouse::Begin(const PictureView& view, const ButtonEvent& event, Wind
   drag_ = !left ? Drag::kTurn : event.shift ? Drag::kUpright : Drag::kLevel;
 }
 
+void PictureMouse::BeginSurface(const PictureView& view, const ButtonEvent& event,
+                                WindowState* state) {
+  const scene::SceneDescription scene = session::WithEdit(state->scene, state->edit);
+  const auto picked =
+      PickSurface(scene, start_, ImGui::GetFontSize() / (view.scale * state->frame.camera.fx));
+  state->selected_surface = picked ? picked->phantom : -1;
+  if (!picked) return;
+  grip_ = *picked;
+  start_surface_ = state->edit.phantoms[static_cast<std::size_t>(grip_.phantom)];
+  drag_ = event.shift ? Drag::kSurfaceUpright : Drag::kSurface;
+}
+
 void PictureMouse::Continue(const PictureView& view, Vec2 screen, WindowState* state) {
   if (drag_ == Drag::kNone) return;
   // A click selects; only a drag moves.
   if (Norm(screen - start_screen_) < 2.0) return;
   const Sight sight = SightThrough(state->frame.camera, *state->frame.camera_from_marker,
                                    view.PixelFromScreen(screen));
+  if (drag_ == Drag::kSurface || drag_ == Drag::kSurfaceUpright) {
+    const auto moved = DraggedSurface(session::WithEdit(state->scene, state->edit), start_surface_,
+                                      grip_, start_, sight, drag_ == Drag::kSurfaceUpright);
+    if (moved) state->edit.phantoms[static_cast<std::size_t>(grip_.phantom)] = *moved;
+    return;
+  }
   const Vec3 up = UpOf(state->scene.marker);
   if (drag_ == Drag::kPoleFoot || drag_ == Drag::kPoleTip) {
     const auto on_ground = MeetPlane(sight, state->overlays.pole.foot, up);

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "app/window/picture_view.h"
+#include "app/window/surface_moves.h"
 #include "app/window/window_state.h"
 
 namespace pleinair::app {
@@ -21,17 +22,27 @@ struct ButtonEvent {
   Vec2 screen;
 };
 
-/// Mouse interaction over the image, and its overlays: the selected object's box and the north
-/// pole. Within an ImGui frame.
+/// Mouse interaction over the image, and its overlays: the selected object's box, the
+/// outlines of described surfaces, and the north pole. Within an ImGui frame.
 class PictureMouse {
  public:
   /// `events`: since the last call, in order.
   void Update(const PictureView& view, const std::vector<ButtonEvent>& events, WindowState* state);
 
  private:
-  enum class Drag { kNone, kLevel, kUpright, kTurn, kPoleFoot, kPoleTip };
+  enum class Drag {
+    kNone,
+    kLevel,
+    kUpright,
+    kTurn,
+    kPoleFoot,
+    kPoleTip,
+    kSurface,
+    kSurfaceUpright
+  };
 
   void Begin(const PictureView& view, const ButtonEvent& event, WindowState* state);
+  void BeginSurface(const PictureView& view, const ButtonEvent& event, WindowState* state);
   void Continue(const PictureView& view, Vec2 screen, WindowState* state);
 
   Drag drag_ = Drag::kNone;
@@ -39,6 +50,8 @@ class PictureMouse {
   Sight start_;
   Vec3 hold_;
   session::ObjectPlace start_place_;
+  SurfaceGrip grip_;
+  session::SurfacePlace start_surface_;
 };
 
 }  // namespace pleinair::app

@@ -11,6 +11,7 @@
 #include "app/options/local_time.h"
 #include "app/window/cities.h"
 #include "app/window/measured_text.h"
+#include "app/window/surface_section.h"
 #include "scene/sun_over_place.h"
 #include "shadows/shadow_method.h"
 
@@ -98,6 +99,7 @@ void ScenePanel::Draw(Vec2 corner, Vec2 size, UtcTime now, WindowState* state) {
     if (Section("Air", true)) Air(state);
     if (Section("North", true)) North(state);
     if (Section("Objects", true)) Objects(state);
+    if (Section("Ground, boxes and walls", true)) DrawSurfaceSection(state);
     if (Section("Shadows and light", true)) {
       Shadows(state);
       Light(state);

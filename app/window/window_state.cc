@@ -64,6 +64,13 @@ void DoToObject(Action action, bool fine, WindowState* state) {
   }
 }
 
+void ResetSurface(WindowState* state) {
+  const auto index = static_cast<std::size_t>(state->selected_surface);
+  if (index < state->edit.phantoms.size()) {
+    state->edit.phantoms[index] = state->unedited.phantoms[index];
+  }
+}
+
 }  // namespace
 
 scene::MarkerDescription WindowState::marker() const {
@@ -133,6 +140,9 @@ void Do(Action action, bool fine, UtcTime now, WindowState* state) {
     case Action::kLater:
       state->edit.later_s += time_step;
       return;
+    case Action::kSurfaces:
+      state->overlays.moving_surfaces = !state->overlays.moving_surfaces;
+      return;
     case Action::kNextObject: {
       const int count = static_cast<int>(state->edit.objects.size());
       state->selected = count == 0 ? -1 : (state->selected + 1) % count;
@@ -143,6 +153,8 @@ void Do(Action action, bool fine, UtcTime now, WindowState* state) {
         state->overlays.help = false;
       } else if (state->overlays.turning_north) {
         state->overlays.turning_north = false;
+      } else if (state->overlays.moving_surfaces) {
+        state->overlays.moving_surfaces = false;
       } else {
         state->selected = -1;
       }
@@ -157,6 +169,10 @@ void Do(Action action, bool fine, UtcTime now, WindowState* state) {
       state->exposure_locked = !state->exposure_locked;
       state->edit.lock_exposure = state->exposure_locked;
       state->requests.exposure_change = true;
+      return;
+    case Action::kResetObject:
+      if (state->overlays.moving_surfaces) return ResetSurface(state);
+      if (state->selected >= 0) DoToObject(action, fine, state);
       return;
     default:
       if (state->selected >= 0) DoToObject(action, fine, state);

@@ -17,6 +17,8 @@ namespace pleinair::app {
 struct Overlays {
   bool panel = true, help = false;
   bool turning_north = false;  ///< The virtual pole is shown.
+  /// The mouse moves ground, boxes and walls in place of objects, and their outlines are shown.
+  bool moving_surfaces = false;
   NorthPole pole;
 };
 
@@ -53,6 +55,7 @@ struct WindowState {
   session::SceneEdit edit, unedited;
   std::vector<ObjectBox> boxes;  ///< Boxes of the scene's objects, in order.
   int selected = -1;             ///< Index of an object; -1: none.
+  int selected_surface = -1;     ///< Index of a phantom; -1: none.
   bool exposure_locked = false;
   Overlays overlays;
   ShownFrame frame;
@@ -101,6 +104,7 @@ enum class Action {
   kShrink,
   kResetObject,
   kNorth,
+  kSurfaces,
   kShadowMaps,
   kLockExposure,
 };

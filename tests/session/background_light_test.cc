@@ -45,6 +45,29 @@ BackgroundLight::Setup BoxOnGround() {
   return setup;
 }
 
+TEST(BackgroundLight, LightsTheGroundWhereItWasMovedTo) {
+  BackgroundLight::Setup setup = BoxOnGround();
+  setup.scene.phantoms[0].surface = scene::GroundSurface(4.0, 0.0, false);
+  setup.edit = UneditedScene(setup.scene, {});
+  auto light = BackgroundLight::Create(setup);
+  ASSERT_TRUE(light) << light.error().Message();
+  const auto ground_m = [](const BakedLighting& lit) {
+    return lit.meshes.at(0).positions.at(0)[2];
+  };
+  std::shared_ptr<const BakedLighting> in_use = (*light)->Take();
+  ASSERT_NE(in_use, nullptr);
+  ASSERT_TRUE(in_use->meshes.at(0).is_phantom);
+  EXPECT_EQ(ground_m(*in_use), 0.0F);
+  SceneEdit edit = setup.edit;
+  edit.phantoms[0].translation_m.z = -0.25;
+  (*light)->SetEdit(edit);
+  while (ground_m(*in_use) == 0.0F) {
+    if (auto newest = (*light)->Take()) in_use = newest;
+    std::this_thread::sleep_for(milliseconds(1));
+  }
+  EXPECT_EQ(ground_m(*in_use), -0.25F);
+}
+
 TEST(BackgroundLight, RelightsAMovedObjectWhileOthersLookOn) {
   const BackgroundLight::Setup setup = BoxOnGround();
   SceneEdit edit = setup.edit;

@@ -92,6 +92,38 @@ TEST_F(SceneSaving, WritesPlaceAndAir) {
   EXPECT_EQ(Save(edit), expected);
 }
 
+TEST_F(SceneSaving, WritesMovedBoxesWallsAndGround) {
+  const std::string text = std::string(kYard) + R"(
+[[wall]]
+corners_m = [[2, 0, 0], [2, 3, 0],  # the barn
+             [2, 3, 2.5], [2, 0, 2.5]]
+[[box]]
+from_m = [0, 0, 0]
+to_m = [1, 1, 1]
+[[box]]
+from_m = [3, 0, 0]
+to_m = [4, 1, 1]
+[ground]
+size_m = 8
+)";
+  const scene::SceneDescription scene = SceneOf(text);
+  const SceneEdit before = UneditedScene(scene, {});
+  ASSERT_EQ(before.phantoms.size(), 4U) << "boxes, walls, ground";
+  SceneEdit edit = before;
+  edit.phantoms[1].translation_m = {0.25, 0.5, 0.0};
+  edit.phantoms[2].corners_m[2] = {2.0, 3.25, 2.75};
+  edit.phantoms[3].translation_m = {0.0, 0.0, -0.3};
+  const auto saved = WithSavedEdit(text, scene, before, edit);
+  ASSERT_TRUE(saved) << saved.error().Message();
+  std::string expected = With(text, "[2, 3, 2.5]", "[2, 3.25, 2.75]");
+  expected =
+      With(expected, "to_m = [4, 1, 1]\n", "to_m = [4, 1, 1]\ntranslation_m = [0.25, 0.5, 0.0]\n");
+  EXPECT_EQ(*saved, With(expected, "size_m = 8\n", "size_m = 8\nheight_m = 0.301\n"));
+  const SceneEdit read = UneditedScene(SceneOf(*saved), {});
+  EXPECT_EQ(read.phantoms[1], edit.phantoms[1]);
+  EXPECT_EQ(read.phantoms[2], edit.phantoms[2]);
+}
+
 TEST_F(SceneSaving, ReadsBackAsTheEditedScene) {
   SceneEdit edit = before_;
   for (ObjectPlace& place : edit.objects) {

@@ -88,6 +88,9 @@ TEST_F(SceneFileTest, SavesIntoANewFileAndLeavesTheScenesOwn) {
 
 TEST_F(SceneFileTest, ASceneWithoutATomlFileIsSavedIntoANewOne) {
   scene_.file = folder_.Write("scene.json", "{}");
+  scene_.phantoms.clear();  // Such a file describes no surfaces.
+  unedited_.phantoms.clear();
+  moved_.phantoms.clear();
   const auto refused = Open().Save(moved_);
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().Message().find("--save-scene"), std::string::npos);
