@@ -12,33 +12,17 @@
 namespace pleinair::session {
 namespace {
 
-/// The markers of all frames, by index of the frame.
-struct AnchorFilm {
-  std::vector<tracker::AnchorFrame> frames;
-  std::vector<Observation> observations;  ///< The reference marker's, or the frame's first.
-};
-
-AnchorFilm FilmOf(const MarkerTracks& tracks, const std::vector<MarkerName>& names) {
-  std::map<std::int64_t, std::pair<tracker::AnchorFrame, Observation>> by_frame;
+/// The markers of all frames, in order of the frames.
+std::vector<AnchorView> FilmOf(const MarkerTracks& tracks, const std::vector<MarkerName>& names) {
+  std::map<std::int64_t, AnchorView> by_frame;
   for (std::size_t i = 0; i < names.size(); ++i) {
     for (const Observation& seen : tracks.TrackOf(names[i])) {
-      auto [at, is_new] = by_frame.try_emplace(seen.frame_index);
-      at->second.first.push_back(
-          {i, seen.corners_px, CornerDeviation_px(seen.visible_fraction), seen.camera_from_marker});
-      if (!is_new) continue;
-      at->second.second = seen;
-      if (i == 0) continue;
-      // Its visibility map is that of another marker.
-      at->second.second.visibility_side = 0;
-      at->second.second.visibility.clear();
-      at->second.second.source = PoseSource::kAnchors;
+      AddToView(i, seen, &by_frame[seen.frame_index]);
     }
   }
-  AnchorFilm film;
-  for (auto& [index, frame] : by_frame) {
-    film.frames.push_back(std::move(frame.first));
-    film.observations.push_back(std::move(frame.second));
-  }
+  std::vector<AnchorView> film;
+  film.reserve(by_frame.size());
+  for (auto& [index, view] : by_frame) film.push_back(std::move(view));
   return film;
 }
 
@@ -72,34 +56,65 @@ void ScaleAnchors(const scene::SceneDescription& scene,
   }
 }
 
-AnchoredPath FollowAnchors(const CameraModel& camera, const scene::SceneDescription& scene,
-                           const MarkerTracks& tracks, const MarkerName& reference) {
+std::vector<tracker::AnchorMarker> DescribedAnchors(const scene::SceneDescription& scene) {
   const Transform<Marker, Marker> same;
-  std::vector<MarkerName> names{reference};
   std::vector<tracker::AnchorMarker> markers{{scene.marker.size_m, same}};
   for (const scene::AnchorDescription& anchor : scene.anchors) {
-    names.push_back(NameOf(anchor));
     markers.push_back({anchor.size_m, {}});
     if (!anchor.place) continue;
     markers.back().reference_from_marker = Transform<Marker, Marker>{
         RotationXyz(anchor.place->rotation_deg), anchor.place->translation_m};
   }
-  AnchorFilm film = FilmOf(tracks, names);
-  tracker::PlaceAnchorMarkers(camera, film.frames, &markers);
+  return markers;
+}
+
+void AddToView(std::size_t marker, const Observation& seen, AnchorView* view) {
+  const bool is_first = view->markers.empty();
+  view->markers.push_back({marker, seen.corners_px, CornerDeviation_px(seen.visible_fraction),
+                           seen.camera_from_marker});
+  if (!is_first) return;
+  view->observation = seen;
+  if (marker == 0) return;
+  // Its visibility map is that of another marker.
+  view->observation.visibility_side = 0;
+  view->observation.visibility.clear();
+  view->observation.source = PoseSource::kAnchors;
+}
+
+std::optional<Observation> ObservationBy(const CameraModel& camera,
+                                         const std::vector<tracker::AnchorMarker>& markers,
+                                         AnchorView view) {
+  Observation& here = view.observation;
+  const bool alone = here.source == PoseSource::kMarker && view.markers.size() == 1;
+  if (alone) return std::move(here);
+  const auto pose = tracker::FitAnchoredPose(camera, markers, view.markers);
+  if (pose) {
+    here.camera_from_marker = pose->camera_from_reference;
+    here.reprojection_rms_px = pose->reprojection_rms_px;
+  } else if (here.source != PoseSource::kMarker) {
+    return std::nullopt;
+  }
+  // Anchors that contradict it do not take the reference marker's own pose away.
+  return std::move(here);
+}
+
+AnchoredPath FollowAnchors(const CameraModel& camera, const scene::SceneDescription& scene,
+                           const MarkerTracks& tracks, const MarkerName& reference) {
+  std::vector<MarkerName> names{reference};
+  for (const scene::AnchorDescription& anchor : scene.anchors) names.push_back(NameOf(anchor));
+  std::vector<tracker::AnchorMarker> markers = DescribedAnchors(scene);
+  std::vector<AnchorView> film = FilmOf(tracks, names);
+  std::vector<tracker::AnchorFrame> frames;
+  frames.reserve(film.size());
+  for (const AnchorView& view : film) frames.push_back(view.markers);
+  tracker::PlaceAnchorMarkers(camera, frames, &markers);
   AnchoredPath path;
   AnchorSummary& summary = path.summary;
-  for (std::size_t i = 0; i < film.frames.size(); ++i) {
-    Observation& here = film.observations[i];
-    const bool alone = here.source == PoseSource::kMarker && film.frames[i].size() == 1;
-    if (!alone) {
-      const auto pose = tracker::FitAnchoredPose(camera, markers, film.frames[i]);
-      // Anchors that contradict it do not take the reference marker's own pose away.
-      if (!pose && here.source != PoseSource::kMarker) continue;
-      here.camera_from_marker = pose->camera_from_reference;
-      here.reprojection_rms_px = pose->reprojection_rms_px;
-    }
-    summary.by_anchors += here.source == PoseSource::kAnchors ? 1 : 0;
-    path.observations.push_back(std::move(here));
+  for (AnchorView& view : film) {
+    auto observation = ObservationBy(camera, markers, std::move(view));
+    if (!observation) continue;
+    summary.by_anchors += observation->source == PoseSource::kAnchors ? 1 : 0;
+    path.observations.push_back(*std::move(observation));
   }
   const FilledGaps filled = FillGaps(tracks.frame_times(), &path.observations);
   summary.filled = filled.frames;

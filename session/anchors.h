@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "session/marker_tracks.h"
 #include "session/trajectory/follow_trajectory.h"
 #include "tracker/observation.h"
+#include "tracker/pose/anchor_fit.h"
 
 namespace pleinair::session {
 
@@ -45,6 +47,24 @@ MarkerName NameOf(const scene::AnchorDescription& anchor);
 /// of another size.
 void ScaleAnchors(const scene::SceneDescription& scene,
                   std::vector<tracker::MarkerObservation>* observations);
+
+/// The reference marker and the anchors of a scene, with the places that the scene gives.
+std::vector<tracker::AnchorMarker> DescribedAnchors(const scene::SceneDescription& scene);
+
+/// The markers of a scene that one frame shows.
+struct AnchorView {
+  tracker::AnchorFrame markers;
+  Observation observation;  ///< The reference marker's, or that of the first anchor.
+};
+
+/// Adds a marker of a frame, in the order of DescribedAnchors(). `marker`: its index there.
+void AddToView(std::size_t marker, const Observation& seen, AnchorView* view);
+
+/// The observation of a frame with the pose by all placed markers that it shows. Nothing if it
+/// shows none. A frame with the reference marker alone keeps that marker's pose.
+std::optional<Observation> ObservationBy(const CameraModel& camera,
+                                         const std::vector<tracker::AnchorMarker>& markers,
+                                         AnchorView view);
 
 /// Estimates the trajectory of the camera from all markers of a scene. First it places the anchors
 /// that have no pose (tracker/pose/anchor_fit.h). Then it estimates the pose of each frame from all

@@ -7,6 +7,7 @@
 #include "base/parallel_for.h"
 #include "base/scaled_camera.h"
 #include "devices/images/resize_image.h"
+#include "session/anchor_follower.h"
 #include "session/marker_refiner.h"
 #include "session/scene_marker.h"
 #include "session/scene_renderer.h"
@@ -52,7 +53,7 @@ Result<std::unique_ptr<Pipeline>> Pipeline::Create(const CameraModel& camera,
 
 Result<ComposedFrame> Pipeline::Process(const devices::Frame& frame) {
   PLEINAIR_ASSIGN_OR_RETURN(const TrackedFrame tracked, Track(frame));
-  const std::optional<CameraPose> pose = PoseIn(frame);
+  const std::optional<CameraPose> pose = FollowIn(frame);
   const UtcTime time = MomentOf(frame.timestamp_ns);
   if (HasOutputSize(frame)) return Compose(frame.rgb.view(), pose, time);
   return Compose(Resized(frame).view(), pose, time);
@@ -122,10 +123,20 @@ std::optional<CameraPose> Pipeline::PoseIn(const devices::Frame& last_tracked) c
   return CameraPose{*marker, last};
 }
 
+std::optional<CameraPose> Pipeline::FollowIn(const devices::Frame& last_tracked) {
+  if (scene_.anchors.empty()) return PoseIn(last_tracked);
+  if (!by_anchors_.follower) {
+    by_anchors_.follower = std::make_unique<AnchorFollower>(camera_, scene_);
+  }
+  auto seen = by_anchors_.follower->Add(tracks_, last_tracked.index);
+  if (!seen) return std::nullopt;
+  return CameraPose{by_anchors_.follower->reference(), *std::move(seen)};
+}
+
 void Pipeline::FollowAnchors() {
   const std::optional<MarkerName> marker = tracks_.ReferenceMarker();
   if (!marker || scene_.anchors.empty()) return;
-  anchored_ = session::FollowAnchors(camera_, scene_, tracks_, *marker);
+  by_anchors_.path = session::FollowAnchors(camera_, scene_, tracks_, *marker);
 }
 
 Result<void> Pipeline::FollowTrajectory(const TrajectoryRequest& request) {
@@ -135,8 +146,8 @@ Result<void> Pipeline::FollowTrajectory(const TrajectoryRequest& request) {
       FollowedTrajectory followed,
       session::FollowTrajectory(camera_, scene_.marker, tracks_.frame_times(),
                                 marker ? tracks_.TrackOf(*marker) : kNone, Path(), request));
-  anchored_.observations = std::move(followed.observations);
-  anchored_.trajectory = std::move(followed.summary);
+  by_anchors_.path.observations = std::move(followed.observations);
+  by_anchors_.path.trajectory = std::move(followed.summary);
   return {};
 }
 
@@ -148,7 +159,7 @@ std::optional<MarkerName> Pipeline::PathMarker() const {
 
 const std::vector<Observation>& Pipeline::Path() const {
   static const std::vector<Observation> kNone;
-  if (!anchored_.observations.empty()) return anchored_.observations;
+  if (!by_anchors_.path.observations.empty()) return by_anchors_.path.observations;
   const std::optional<MarkerName> marker = tracks_.ReferenceMarker();
   return marker ? tracks_.TrackOf(*marker) : kNone;
 }

@@ -27,6 +27,7 @@
 
 namespace pleinair::session {
 
+class AnchorFollower;
 class MarkerRefiner;
 class SceneRenderer;
 struct FollowedLight;
@@ -78,9 +79,9 @@ struct ComposedFrame {
 /// pose, the light and the composed image come out. Replay, live sessions and users' programs share
 /// this class. Frames must come in order, since each stage keeps what it learns for the next frame.
 ///
-/// Tracking (Find, Measure, Track, PoseIn, tracks) may run on one thread while composing (Compose,
-/// renderer) runs on another. Within each of the two, calls must not overlap, except as Find() and
-/// Measure() allow.
+/// Tracking (Find, Measure, Track, PoseIn, FollowIn, tracks) may run on one thread while composing
+/// (Compose, renderer) runs on another. Within each of the two, calls must not overlap, except as
+/// Find() and Measure() allow.
 class Pipeline {
  public:
   /// Loads the models of the scene. `camera`: the lens of the frames. Errors: an invalid marker in
@@ -90,7 +91,7 @@ class Pipeline {
                                                   const PipelineOptions& options = {});
   ~Pipeline();
 
-  /// Calls Track(), PoseIn() and Compose() at MomentOf() the frame. The light is the one
+  /// Calls Track(), FollowIn() and Compose() at MomentOf() the frame. The light is the one
   /// that the scene describes; the functions of session/recording_passes.h estimate it from the
   /// frames of a recording first. Errors: those of Track() and Compose().
   Result<ComposedFrame> Process(const devices::Frame& frame);
@@ -109,6 +110,10 @@ class Pipeline {
   /// detected in it.
   std::optional<CameraPose> PoseIn(const devices::Frame& last_tracked) const;
 
+  /// As PoseIn(), by all markers of a scene with anchors (session/anchor_follower.h). Call it once
+  /// per frame, in order.
+  std::optional<CameraPose> FollowIn(const devices::Frame& last_tracked);
+
   /// All observations of each marker so far.
   const MarkerTracks& tracks() const { return tracks_; }
 
@@ -123,10 +128,10 @@ class Pipeline {
   /// FollowAnchors(), or the observations of the reference marker.
   const std::vector<Observation>& Path() const;
   /// How FollowAnchors() used the anchors.
-  const AnchorSummary& anchor_summary() const { return anchored_.summary; }
+  const AnchorSummary& anchor_summary() const { return by_anchors_.path.summary; }
   /// How FollowTrajectory() used the given trajectory; nothing without one.
   const std::optional<TrajectorySummary>& trajectory_summary() const {
-    return anchored_.trajectory;
+    return by_anchors_.path.trajectory;
   }
   /// The marker in whose coordinates Path() is: the observed reference marker. If no frame shows
   /// it and a given trajectory is aligned by places, the marker that the scene describes. Nothing
@@ -178,6 +183,12 @@ class Pipeline {
   /// How the light of a frame differs from the estimated one.
   FollowedLight FollowedIn(const Observation& seen) const;
 
+  /// Poses by all markers of a scene with anchors: of a whole recording, and frame by frame.
+  struct ByAnchors {
+    AnchoredPath path;
+    std::unique_ptr<AnchorFollower> follower;
+  };
+
   CameraModel camera_, output_camera_;  // Lenses of frames and of composed images.
   scene::SceneDescription scene_;
   bool hands_in_front_;
@@ -186,7 +197,7 @@ class Pipeline {
   std::unique_ptr<tracker::Tracker> tracker_;
   std::unique_ptr<MarkerRefiner> refiner_;  // Null if markers are not refined.
   MarkerTracks tracks_;
-  AnchoredPath anchored_;
+  ByAnchors by_anchors_;
   std::unique_ptr<SceneRenderer> renderer_;
   std::optional<MarkerName> metered_marker_;  // The renderer's light meter.
 };

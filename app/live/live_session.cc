@@ -136,7 +136,7 @@ Result<LiveSession::Tracked> LiveSession::TrackOne(FramePtr frame) {
   const session::MarkerTracks& tracks = pipeline_->tracks();
   PLEINAIR_RETURN_IF_ERROR(
       sightings_.Add(tracked, tracks, frame->index, clock_.SinceFirst_ns(frame->timestamp_ns)));
-  std::optional<session::CameraPose> pose = pipeline_->PoseIn(*frame);
+  std::optional<session::CameraPose> pose = pipeline_->FollowIn(*frame);
   return Tracked{std::move(frame), tracks.ReferenceMarker(), std::move(pose)};
 }
 
@@ -167,7 +167,10 @@ Result<std::optional<DrawnFrame>> LiveSession::DrawOne(Tracked tracked) {
   DrawnFrame drawn{tracked.frame, std::nullopt, {}, moment, {}};
   if (tracked.pose) {
     drawn.camera_from_marker = tracked.pose->observation.camera_from_marker;
-    scene_.Show(tracked.frame, *drawn.camera_from_marker, moment);
+    // Without the marker there is no exposure to compare shadows with.
+    if (tracked.pose->observation.source == session::PoseSource::kMarker) {
+      scene_.Show(tracked.frame, *drawn.camera_from_marker, moment);
+    }
   }
   PLEINAIR_ASSIGN_OR_RETURN(session::ComposedFrame composed,
                             pipeline_->Compose(frame.rgb.view(), tracked.pose, moment));

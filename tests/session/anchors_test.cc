@@ -6,12 +6,14 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <numbers>
 #include <random>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "session/anchor_follower.h"
 #include "session/marker_tracks.h"
 #include "tracker/pose/anchor_fit.h"
 #include "tracker/pose/planar_pose.h"
@@ -94,8 +96,10 @@ struct Cover {
 };
 using CoverAt = Cover (*)(double t_s);
 
+/// `after_frame` gets the tracks after each frame, and its number.
 MarkerTracks Film(const Place& place, const scene::SceneDescription& scene, double length_s,
-                  CoverAt cover_at) {
+                  CoverAt cover_at,
+                  const std::function<void(const MarkerTracks&, int)>& after_frame = {}) {
   std::mt19937 random(7);
   const CameraModel camera = PhoneLens();
   MarkerTracks tracks(scene.marker);
@@ -113,6 +117,7 @@ MarkerTracks Film(const Place& place, const scene::SceneDescription& scene, doub
     }
     ScaleAnchors(scene, &seen);
     tracks.AddFrame(i, std::llround(t_s * 1e9), seen);
+    if (after_frame) after_frame(tracks, i);
   }
   return tracks;
 }
@@ -192,6 +197,46 @@ TEST(Anchors, AFewWrongCornersHardlyMoveThePose) {
   EXPECT_LT(error_m(), 0.001);
   frame[0].corners_px[2] = frame[0].corners_px[2] + Vec2{-8.0, 15.0};
   EXPECT_LT(error_m(), 0.002);
+}
+
+TEST(Anchors, TheObjectStaysWhileAFilmIsStillGoingOn) {
+  const Place place;
+  const scene::SceneDescription scene = SceneOf(place);
+  AnchorFollower follower(PhoneLens(), scene);
+  AnchoredPath path;
+  Film(
+      place, scene, 4.0,
+      [](double t_s) {
+        const bool both = t_s > 3.6 && t_s < 3.8;
+        return Cover{both || (t_s > 1.0 && t_s < 2.0), both || (t_s > 2.5 && t_s < 3.5)};
+      },
+      [&](const MarkerTracks& tracks, int frame) {
+        auto seen = follower.Add(tracks, frame);
+        if (seen) path.observations.push_back(*std::move(seen));
+      });
+  EXPECT_EQ(path.observations.size(), 115U) << "all but those without a marker";
+  const auto by_anchors =
+      std::count_if(path.observations.begin(), path.observations.end(),
+                    [](const Observation& at) { return at.source == PoseSource::kAnchors; });
+  EXPECT_EQ(by_anchors, 29);
+  for (const Observation& at : path.observations) {
+    EXPECT_TRUE(at.source == PoseSource::kMarker || at.visibility_side == 0);
+  }
+  ExpectTheObjectStays(path, place);
+}
+
+TEST(Anchors, AnAnchorThatWasNeverSeenBesideTheMarkerGivesNoPoseLive) {
+  const Place place;
+  const scene::SceneDescription scene = SceneOf(place);
+  AnchorFollower follower(PhoneLens(), scene);
+  int poses = 0;
+  Film(
+      place, scene, 1.0,
+      [](double t_s) {
+        return Cover{t_s > 0.5, t_s < 0.52};
+      },
+      [&](const MarkerTracks& tracks, int frame) { poses += follower.Add(tracks, frame) ? 1 : 0; });
+  EXPECT_EQ(poses, 16);
 }
 
 TEST(Anchors, LongGapsStayAndUnseenMarkersAreReported) {
