@@ -109,6 +109,7 @@ class GlComposer : public Composer {
                         const Mat3& marker_from_world, LinearRgb from_below) override;
   Result<void> SetResponse(const CameraResponse& response) override;
   Result<void> SetLightMix(const std::vector<LitMesh>& lit, const LightMix& mix) override;
+  Result<void> SetAmbient(const std::vector<LitMesh>& lit) override;
   void SetSun(const sky::SkyModel& day, const Mat3& marker_from_world) override;
   Result<RgbImage> Compose(ImageView<const std::uint8_t> rgb,
                            const Transform<Camera, Marker>& camera_from_marker,
@@ -281,6 +282,12 @@ Result<void> GlComposer::SetLightMix(const std::vector<LitMesh>& lit, const Ligh
   PLEINAIR_RETURN_IF_ERROR(context_.MakeCurrent());
   sky_.mix = mix;
   return surfaces_.SetMix(changing_ ? changing_->meshes() : lit, mix);
+}
+
+Result<void> GlComposer::SetAmbient(const std::vector<LitMesh>& lit) {
+  if (changing_) return {};
+  PLEINAIR_RETURN_IF_ERROR(context_.MakeCurrent());
+  return surfaces_.SetMix(lit, sky_.mix);
 }
 
 void GlComposer::SetSun(const sky::SkyModel& day, const Mat3& marker_from_world) {

@@ -67,6 +67,10 @@ class Composer {
   /// which starts with a mix of 1. `lit`: as in SetLight(). Errors: no memory.
   virtual Result<void> SetLightMix(const std::vector<LitMesh>& lit, const LightMix& mix) = 0;
 
+  /// Replaces the indirect illumination of the surfaces of SetLight(). Does nothing in scenes with
+  /// playbacks. Errors: no memory.
+  virtual Result<void> SetAmbient(const std::vector<LitMesh>& lit) = 0;
+
   /// Moves the sun between two calls of SetLight(). Shadows follow it without jumps. The indirect
   /// illumination, which costs more, stays the same.
   virtual void SetSun(const sky::SkyModel& daylight, const Mat3& marker_from_world) = 0;

@@ -21,6 +21,8 @@ constexpr int kLightFrames = 8;
 constexpr double kBetweenEstimates_s = 0.3, kBetweenMeasurements_s = 60.0;
 // Rays of the lights that are in use until the daylight coefficients are ready.
 constexpr int kFewRays = 48;
+// Rays of the draft, which is in use for about a second (docs/measurements/live.md).
+constexpr int kDraftRays = 8;
 constexpr std::chrono::milliseconds kLookAround{100};
 // Below the priority of everything that a frame waits for.
 constexpr int kNice = 10;
@@ -42,14 +44,16 @@ bool BackgroundLight::Wanted::operator==(const Wanted& other) const {
 BackgroundLight::BackgroundLight(Setup setup)
     : setup_(std::move(setup)),
       known_{.heading = setup_.scene.marker.heading},
-      shared_{.wanted = {setup_.edit, setup_.time, {}}, .next_estimate = setup_.time} {
+      shared_{.wanted = {setup_.edit, setup_.time, setup_.marker_reflectance},
+              .next_estimate = setup_.time} {
   UseOverriddenSky(setup_.time, &setup_.skies);
 }
 
 Result<std::unique_ptr<BackgroundLight>> BackgroundLight::Create(Setup setup) {
   std::unique_ptr<BackgroundLight> light(new BackgroundLight(std::move(setup)));
   PLEINAIR_RETURN_IF_ERROR(light->Place(light->setup_.edit));
-  light->Make(light->shared_.wanted);
+  light->Make(light->shared_.wanted, light->placed_.solver->WithRays(kDraftRays));
+  light->made_.wanted.reset();  // A better one is wanted.
   light->thread_ = std::thread([self = light.get()] { self->Run(); });
   return light;
 }
@@ -119,7 +123,7 @@ void BackgroundLight::Run() {
       // Surfaces that cannot be placed leave the last light in use.
       if (!Place(wanted.edit)) continue;
     }
-    if (NeedsLight(wanted)) Make(wanted);
+    if (NeedsLight(wanted)) Make(wanted, placed_.solver);
     if (shown) EstimateLight(*shown, wanted);
     if (placed_.ordered_for != placed_.solver || wanted.edit.convergence != placed_.convergence) {
       WantCoefficients(wanted, &worker);
@@ -142,11 +146,15 @@ Result<void> BackgroundLight::Place(const SceneEdit& edit) {
     }
     known_.estimator.reset();  // It has seen shadows of other phantoms.
   }
-  compositor::LightSolverOptions options;
-  options.rays_per_vertex = kFewRays;
-  options.max_patches = setup_.light.overrides.max_patches.value_or(options.max_patches);
-  PLEINAIR_ASSIGN_OR_RETURN(placed_.solver,
-                            compositor::LightSolver::Create(setup_.placed, options));
+  if (const auto solver = std::exchange(setup_.solver, nullptr)) {
+    placed_.solver = solver->WithRays(kFewRays);
+  } else {
+    compositor::LightSolverOptions options;
+    options.rays_per_vertex = kFewRays;
+    options.max_patches = setup_.light.overrides.max_patches.value_or(options.max_patches);
+    PLEINAIR_ASSIGN_OR_RETURN(placed_.solver,
+                              compositor::LightSolver::Create(setup_.placed, options));
+  }
   placed_.objects = edit.objects;
   placed_.phantoms = edit.phantoms;
   placed_.coefficients.reset();  // They belong to another scene.
@@ -170,7 +178,8 @@ void BackgroundLight::UseOverriddenSky(UtcTime time, compositor::SkyState* skies
   skies->scale = given->sky_radiance_scale;
 }
 
-LightingRequest BackgroundLight::LightingRequestFor(const Wanted& wanted) {
+LightingRequest BackgroundLight::LightingRequestFor(
+    const Wanted& wanted, std::shared_ptr<const compositor::LightSolver> solver) {
   scene::SceneDescription scene = setup_.scene;
   scene.marker.heading = known_.heading;
   scene = WithEdit(scene, wanted.edit);
@@ -194,14 +203,15 @@ LightingRequest BackgroundLight::LightingRequestFor(const Wanted& wanted) {
           scene.place_time,
           scene.marker,
           known_.skies,
-          placed_.solver,
+          std::move(solver),
           placed_.coefficients,
           wanted.marker_reflectance,
           setup_.response};
 }
 
-void BackgroundLight::Make(const Wanted& wanted) {
-  auto light = std::make_shared<BakedLighting>(LightingRequestFor(wanted));
+void BackgroundLight::Make(const Wanted& wanted,
+                           std::shared_ptr<const compositor::LightSolver> solver) {
+  auto light = std::make_shared<BakedLighting>(LightingRequestFor(wanted, std::move(solver)));
   light->objects = placed_.objects;
   made_.wanted = wanted;
   made_.sun = light->sun;

@@ -28,7 +28,8 @@ namespace pleinair::session {
 /// waits for it.
 ///
 /// A new light is computed when the sun has moved, the scene was edited, or frames gave an estimate
-/// of sun and sky. The first lights are traced with few rays. Meanwhile daylight coefficients are
+/// of sun and sky. The first light is a draft with very few rays, so that the first frame need not
+/// wait; the next ones are traced with few rays. Meanwhile daylight coefficients are
 /// computed; with them each further light takes a fraction of a second. A moved object restarts
 /// this, and is drawn with the last light until its next light is ready. A moved phantom changes
 /// with its next light. Afterwards the phantoms' shadows in the frames are used to estimate the
@@ -44,9 +45,12 @@ class BackgroundLight {
     compositor::SkyState skies;  ///< By the scene description.
     UtcTime time;
     CameraResponse response = {};
+    /// Of the placed models, if there is one; null: it is made.
+    std::shared_ptr<const compositor::LightSolver> solver = {};
+    scene::MarkerReflectance marker_reflectance = {};  ///< Size 0: not known yet.
   };
 
-  /// Computes the first light and starts the thread. Errors: the geometry.
+  /// Computes the draft and starts the thread. Errors: the geometry.
   static Result<std::unique_ptr<BackgroundLight>> Create(Setup setup);
   ~BackgroundLight();
 
@@ -92,12 +96,13 @@ class BackgroundLight {
   explicit BackgroundLight(Setup setup);
   void Run();
   Result<void> Place(const SceneEdit& edit);
-  void Make(const Wanted& wanted);
+  void Make(const Wanted& wanted, std::shared_ptr<const compositor::LightSolver> solver);
   bool NeedsLight(const Wanted& wanted) const;
   void EstimateLight(const Shown& shown, const Wanted& wanted);
   void WantCoefficients(const Wanted& wanted, compositor::CoefficientWorker* worker);
   void TakeCoefficients(const compositor::CoefficientWorker& worker);
-  LightingRequest LightingRequestFor(const Wanted& wanted);
+  LightingRequest LightingRequestFor(const Wanted& wanted,
+                                     std::shared_ptr<const compositor::LightSolver> solver);
   void UseOverriddenSky(UtcTime time, compositor::SkyState* skies) const;
   bool MayEstimate(const Wanted& wanted) const;
 

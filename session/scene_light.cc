@@ -122,11 +122,18 @@ bool SceneLight::IsStale(const sky::SunPosition& sun) const {
 
 void SceneLight::Use(std::shared_ptr<const BakedLighting> light, bool made_elsewhere) {
   if (made_elsewhere) {
+    if (in_use_) fade_.Begin(in_use_->meshes, light->meshes);
     made_elsewhere_ = true;
     skies_ = light->request.skies;
   }
   solver_ = light->request.solver;
   in_use_ = std::move(light);
+}
+
+std::optional<std::vector<compositor::LitMesh>> SceneLight::FadedMeshes(UtcTime time) {
+  if (!fade_.on()) return std::nullopt;
+  auto mixed = fade_.At(time, in_use_->meshes);
+  return mixed ? std::move(mixed) : std::optional(in_use_->meshes);
 }
 
 }  // namespace pleinair::session

@@ -23,6 +23,7 @@
 #include "scene/marker_reflectance.h"
 #include "scene/scene_description.h"
 #include "session/baked_lighting.h"
+#include "session/light_fade.h"
 #include "session/light_follower.h"
 #include "session/light_options.h"
 #include "sky/sun/sun_position.h"
@@ -104,6 +105,10 @@ class SceneLight {
   /// again.
   void Use(std::shared_ptr<const BakedLighting> light, bool made_elsewhere);
 
+  /// The meshes of a frame at `time` while one illumination made elsewhere fades into the next;
+  /// those of in_use() at the end of a fade. Nothing where they are already drawn.
+  std::optional<std::vector<compositor::LitMesh>> FadedMeshes(UtcTime time);
+
   /// The illumination in use; null before the first.
   const BakedLighting* in_use() const { return in_use_.get(); }
   bool made_elsewhere() const { return made_elsewhere_; }
@@ -120,6 +125,7 @@ class SceneLight {
   bool concluded_ = false;
   std::shared_ptr<const BakedLighting> in_use_;
   bool made_elsewhere_ = false;
+  LightFade fade_;                         // Of the light made elsewhere.
   std::optional<LightFollower> follower_;  // For the frames probed so far; queries probed_.
   std::shared_ptr<const compositor::LightSolver> probed_;
 };

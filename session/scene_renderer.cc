@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <future>
 #include <memory>
 #include <numbers>
 #include <set>
@@ -117,12 +118,15 @@ Result<std::unique_ptr<SceneRenderer>> SceneRenderer::Create(
                               devices::ReadCameraResponse(scene.camera_response));
     renderer->response_ = composing.response;
   }
-  PLEINAIR_ASSIGN_OR_RETURN(renderer->composer_,
-                            compositor::Composer::Create(camera, placed, composing));
   compositor::LightSolverOptions solving;
   solving.max_patches = light.overrides.max_patches.value_or(solving.max_patches);
-  PLEINAIR_ASSIGN_OR_RETURN(auto solver, compositor::LightSolver::Create(placed, solving));
-  renderer->light_.emplace(std::move(solver), scene, light);
+  // The solver prepares the geometry while OpenGL compiles its programs.
+  auto solver = std::async(std::launch::async,
+                           [&] { return compositor::LightSolver::Create(placed, solving); });
+  PLEINAIR_ASSIGN_OR_RETURN(renderer->composer_,
+                            compositor::Composer::Create(camera, placed, composing));
+  PLEINAIR_ASSIGN_OR_RETURN(auto prepared, solver.get());
+  renderer->light_.emplace(std::move(prepared), scene, light);
   return renderer;
 }
 
@@ -244,6 +248,12 @@ Result<void> SceneRenderer::UseLight(std::shared_ptr<const BakedLighting> light)
   return TakeLight(std::move(light), true);
 }
 
+/// Draws the light between the last one and the one in use, while one fades into the other.
+Result<void> SceneRenderer::FadeLight(UtcTime time) {
+  const auto meshes = light_->FadedMeshes(time);
+  return meshes ? composer_->SetAmbient(*meshes) : Result<void>();
+}
+
 Result<void> SceneRenderer::Edit(const SceneEdit& edit) {
   scene_ = WithEdit(scene_, edit);
   edited_.later_s = edit.later_s;
@@ -332,6 +342,7 @@ Result<void> SceneRenderer::Follow(ImageView<const std::uint8_t> rgb,
   if (!composer_) return {};
   auto start = Clock::now();
   PLEINAIR_RETURN_IF_ERROR(UpdateLight(time.PlusSeconds(edited_.later_s)));
+  PLEINAIR_RETURN_IF_ERROR(FadeLight(time));
   PLEINAIR_RETURN_IF_ERROR(composer_->SetLightMix(light_->in_use()->meshes, followed.mix));
   times_.light_ms = MillisecondsSince(start);
   start = Clock::now();

@@ -94,7 +94,7 @@ class SceneRenderer {
   Result<void> PrepareLight(UtcTime time);
 
   /// Uses a light that was computed elsewhere. From then on Render() only moves the sun and
-  /// computes no light.
+  /// computes no light. The light of the same surfaces fades into the next one.
   Result<void> UseLight(std::shared_ptr<const BakedLighting> light);
 
   /// Changes the scene. Location, time, heading, drawing options and object placement apply at
@@ -152,6 +152,7 @@ class SceneRenderer {
 
   Result<void> TakeLight(std::shared_ptr<const BakedLighting> light, bool made_elsewhere);
   Result<void> UseColors(const std::map<int, compositor::SurfaceColor>& colors);
+  Result<void> FadeLight(UtcTime time);
   void MoveObjects();
   Result<void> UpdateLight(UtcTime time);
   void SummarizeLight(const FollowedLight& followed);

@@ -152,6 +152,7 @@ void KeepNoFreedPictures() {
 }
 
 Result<void> RunLive(const CLI::App& command, const LiveArguments& arguments) {
+  const auto began = std::chrono::steady_clock::now();
 #ifndef PLEINAIR_WINDOW
   if (!arguments.headless) {
     return InputError("live", "was built without a window",
@@ -178,6 +179,7 @@ Result<void> RunLive(const CLI::App& command, const LiveArguments& arguments) {
                       arguments.window.saved_scene));
   KeepNoFreedPictures();
   LiveOptions options;
+  options.began = began;
   options.camera = source.lens;
   options.light = arguments.light;
   options.light.film_response = source.response;

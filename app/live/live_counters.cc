@@ -35,6 +35,11 @@ void LiveCounters::Drawn(const session::RenderTimes& times, double milliseconds)
   counted_.timing.render = times;
 }
 
+void LiveCounters::Composed(double since_start_s) {
+  const std::lock_guard lock(mutex_);
+  if (counted_.first_image_s == 0.0) counted_.first_image_s = since_start_s;
+}
+
 void LiveCounters::Shown(std::int64_t late_for_screen) {
   const std::lock_guard lock(mutex_);
   ++counted_.frames.shown;

@@ -20,6 +20,8 @@ class LiveCounters {
   void Captured(const devices::Frame& frame, std::optional<double> period_ms);
   void Tracked(bool has_pose, double milliseconds);
   void Drawn(const session::RenderTimes& times, double milliseconds);
+  /// Notes that a frame with a pose was composed, `since_start_s` after the start.
+  void Composed(double since_start_s);
   /// Counts a frame on the screen. `late_for_screen`: drawn frames replaced before display so far.
   void Shown(std::int64_t late_for_screen);
   /// Counts a frame that is not drawn because the session ended.

@@ -49,6 +49,7 @@ nlohmann::json Json(const LiveStatistics& s) {
             {"not_taken", s.loss.not_taken}}},
           {"recorded", s.recording.recorded},
           {"left_out_of_recording", s.recording.left_out},
+          {"first_image_s", s.first_image_s},
           {"latency_ms", Json(s.latency)}};
 }
 
@@ -118,6 +119,9 @@ void Report(const LiveStatistics& s, bool json) {
   if (s.latency.worst_ms > 0.0) {
     std::cerr << fmt::format("exposure to picture: {:.0f} ms (95 %: {:.0f}, worst {:.0f})\n",
                              s.latency.median_ms, s.latency.p95_ms, s.latency.worst_ms);
+  }
+  if (s.first_image_s > 0.0) {
+    std::cerr << fmt::format("first composed image after {:.1f} s\n", s.first_image_s);
   }
   if (s.recording.recorded > 0) {
     std::cerr << fmt::format("{} frames recorded, {} dropped because the disk was too slow\n",

@@ -2,14 +2,23 @@
 
 #include <utility>
 
+#include "session/scene_marker.h"
+
 namespace pleinair::app {
 
 Result<void> LiveScene::StartLight(const CameraModel& camera, const session::LightOptions& light,
                                    UtcTime start, session::SceneRenderer* renderer) {
-  PLEINAIR_ASSIGN_OR_RETURN(
-      light_, session::BackgroundLight::Create({camera, described_, renderer->placed(), light,
-                                                edit_, renderer->MakeLightingRequest(start).skies,
-                                                start, renderer->response()}));
+  const session::LightingRequest request = renderer->MakeLightingRequest(start);
+  session::BackgroundLight::Setup setup{
+      camera,        described_, renderer->placed(),  light, edit_,
+      request.skies, start,      renderer->response()};
+  setup.solver = request.solver;
+  // Otherwise the first exposure would be a guess, and change with the next light.
+  const scene::MarkerDescription& marker = described_.marker;
+  if (marker.family && marker.id) {
+    setup.marker_reflectance = session::MarkerReflectanceOf(marker, {*marker.family, *marker.id});
+  }
+  PLEINAIR_ASSIGN_OR_RETURN(light_, session::BackgroundLight::Create(std::move(setup)));
   return renderer->UseLight(light_->Take());
 }
 

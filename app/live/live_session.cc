@@ -36,9 +36,6 @@ Result<std::unique_ptr<LiveSession>> LiveSession::Create(
     std::unique_ptr<devices::FrameSource> source, LiveOptions options) {
   std::unique_ptr<LiveSession> session(new LiveSession(std::move(source), std::move(options)));
   PLEINAIR_RETURN_IF_ERROR(session->Prepare());
-  LiveSession* self = session.get();
-  self->threads_.emplace_back([self] { self->Capture(); });
-  self->threads_.emplace_back([self] { self->Track(); });
   return session;
 }
 
@@ -51,6 +48,9 @@ Result<void> LiveSession::Prepare() {
                             session::Pipeline::Create(options_.camera, options_.scene, pipeline));
   PLEINAIR_ASSIGN_OR_RETURN(sightings_, SightingFiles::Create(options_.detections, options_.output,
                                                               options_.camera, options_.scene));
+  threads_.emplace_back([this] { Capture(); });
+  threads_.emplace_back([this] { Track(); });
+  // The first frame is tracked meanwhile.
   session::SceneRenderer& renderer = pipeline_->renderer();
   if (options_.lossless || !renderer.DrawsObjects()) return {};
   return scene_.StartLight(options_.camera, options_.light,
@@ -177,6 +177,7 @@ Result<std::optional<DrawnFrame>> LiveSession::DrawOne(Tracked tracked) {
   drawn.picture = std::move(composed.image);
   drawn.light = renderer.light();
   counters_.Drawn(renderer.times(), MillisecondsSince(start));
+  if (tracked.pose) counters_.Composed(1e-3 * MillisecondsSince(options_.began));
   if (options_.lossless) return drawn;
   if (!options_.shown_elsewhere) counters_.AddLatency(frame);
   if (renderer.DrawsObjects()) {
@@ -195,7 +196,7 @@ LiveStatistics LiveSession::statistics() const {
     return LateFrames{captured_.dropped(), tracked_.dropped(), 0};
   });
   statistics.detail = scene_.detail();
-  if (auto progress = scene_.light_progress()) statistics.light = *std::move(progress);
+  if (const auto progress = scene_.light_progress()) statistics.light = *progress;
   statistics.recording = recording_.counts();
   return statistics;
 }

@@ -35,6 +35,8 @@ struct LiveOptions {
   scene::SceneDescription scene;  ///< With the values that `light` provides (WithGiven()).
   compositor::ComposerOptions composer;
   session::LightOptions light;
+  /// When the program began its work, for LiveStatistics::first_image_s.
+  std::chrono::steady_clock::time_point began = std::chrono::steady_clock::now();
   /// UTC of the first frame. Without it, the clock time at the first frame's arrival is used.
   std::optional<UtcTime> start;
   /// If true, every frame is tracked and drawn in order, however long it takes, and measured as in
@@ -64,8 +66,8 @@ struct DrawnFrame {
 /// waits for a slower stage, unless `lossless`.
 class LiveSession {
  public:
-  /// Loads the scene and prepares its first light. Errors: models, OpenGL, the marker, a recording
-  /// or detections file that cannot be written.
+  /// Loads the scene, starts the threads and prepares the first light. Errors: models, OpenGL, the
+  /// marker, a recording or detections file that cannot be written.
   static Result<std::unique_ptr<LiveSession>> Create(std::unique_ptr<devices::FrameSource> source,
                                                      LiveOptions options);
   ~LiveSession();

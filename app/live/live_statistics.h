@@ -45,6 +45,8 @@ struct LiveStatistics {
   RecordingSwitch::Counts recording;
   LatencyMeter::Summary latency;  ///< From a frame's stamp until it was drawn, or shown.
   FrameTiming timing;
+  /// From the start of the program's work until the first composed image; 0: there was none.
+  double first_image_s = 0.0;
   session::Detail detail = session::Detail::kFine;
   session::BackgroundLight::Progress light;
 

@@ -127,13 +127,19 @@ Result<std::unique_ptr<LightSolver>> LightSolver::Create(const std::vector<Place
 
 LightSolver::LightSolver(PatchScene scene, const LightSolverOptions& options)
     : options_(options),
-      scene_(std::make_unique<const PatchScene>(std::move(scene))),
+      scene_(std::make_shared<const PatchScene>(std::move(scene))),
       phantoms_(MakePhantomRays(*scene_, options)) {
   static std::atomic<std::uint64_t> mesh_sides{0};
   first_geometry_ = 1 + mesh_sides.fetch_add(scene_->mesh_sides.size());
 }
 
 LightSolver::~LightSolver() = default;
+
+std::unique_ptr<LightSolver> LightSolver::WithRays(int rays_per_vertex) const {
+  std::unique_ptr<LightSolver> solver(new LightSolver(*this));
+  solver->options_.rays_per_vertex = rays_per_vertex;
+  return solver;
+}
 
 std::vector<LitMesh> LightSolver::SolveUnderTrees(
     const sky::SkyModel& daylight, const Mat3& marker_from_world,

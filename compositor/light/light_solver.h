@@ -27,6 +27,10 @@ class LightSolver {
                                                      const LightSolverOptions& options);
   ~LightSolver();
 
+  /// The same scene and surfaces (LitMesh::geometry), solved with another number of rays per vertex
+  /// (LightSolverOptions). Costs nothing.
+  std::unique_ptr<LightSolver> WithRays(int rays_per_vertex) const;
+
   /// Computes the light on every vertex for this daylight. The result does not depend on the number
   /// of threads. The same rays serve the cases with and without the virtual objects. Their ratio
   /// therefore has no noise where the objects change nothing.
@@ -62,10 +66,11 @@ class LightSolver {
 
  private:
   LightSolver(PatchScene scene, const LightSolverOptions& options);
+  LightSolver(const LightSolver&) = default;
 
   LightSolverOptions options_;
-  std::unique_ptr<const PatchScene> scene_;
-  std::unique_ptr<const PhantomRays> phantoms_;
+  std::shared_ptr<const PatchScene> scene_;
+  std::shared_ptr<const PhantomRays> phantoms_;
   std::uint64_t first_geometry_ = 0;  // LitMesh::geometry of the first mesh side; others follow.
 };
 
