@@ -31,7 +31,9 @@ scene::SceneDescription SceneOf(const std::string& text) {
   return scene::CompleteScene(*facts, "scene.toml").value();
 }
 
-void ExpectNear(Vec3 a, Vec3 b) { EXPECT_LT(Norm(a - b), 1e-9) << a.x << ' ' << a.y << ' ' << a.z; }
+void ExpectPoint(Vec3 a, Vec3 b) {
+  EXPECT_LT(Norm(a - b), 1e-9) << a.x << ' ' << a.y << ' ' << a.z;
+}
 
 /// Somebody looks at a scene and drags from one point to another.
 class SurfaceMoves : public testing::Test {
@@ -60,7 +62,7 @@ TEST_F(SurfaceMoves, TheMouseTakesTheSurfaceInFront) {
   EXPECT_EQ(Pick({1.5, 3.0, 1.0})->phantom, kWall);
   EXPECT_FALSE(Pick({1.5, 3.0, 1.0})->corner);
   EXPECT_EQ(Pick({-2.0, 1.0, -0.001})->phantom, kGround);
-  ExpectNear(Pick({-2.0, 1.0, -0.001})->hold, {-2.0, 1.0, -0.001});
+  ExpectPoint(Pick({-2.0, 1.0, -0.001})->hold, {-2.0, 1.0, -0.001});
   EXPECT_EQ(Pick({2.01, 3.0, 2.01})->corner, 2) << "near the corner, beside the wall";
   EXPECT_FALSE(Pick({0.0, 5.0, 50.0})) << "the sky";
 }
@@ -68,10 +70,10 @@ TEST_F(SurfaceMoves, TheMouseTakesTheSurfaceInFront) {
 TEST_F(SurfaceMoves, ABoxFollowsTheMouseOverTheGround) {
   const auto moved = Drag({0.5, 0.0, 0.3}, {1.2, 1.5, 0.3});
   ASSERT_TRUE(moved);
-  ExpectNear(moved->translation_m, {0.7, 1.5, 0.0});
+  ExpectPoint(moved->translation_m, {0.7, 1.5, 0.0});
   const auto raised = Drag({0.5, 0.0, 0.3}, {0.5, 0.0, 0.6}, true);
   ASSERT_TRUE(raised);
-  ExpectNear(raised->translation_m, {0.0, 0.0, 0.3});
+  ExpectPoint(raised->translation_m, {0.0, 0.0, 0.3});
   edit_.phantoms[kBox] = *moved;
   EXPECT_EQ(session::WithEdit(scene_, edit_).phantoms[kBox].translation_m, moved->translation_m);
 }
@@ -81,24 +83,24 @@ TEST_F(SurfaceMoves, AWallMovesAlongItsNormal) {
   ASSERT_TRUE(moved);
   ASSERT_EQ(moved->corners_m.size(), 4U);
   for (int i = 0; i < 4; ++i) {
-    ExpectNear(moved->corners_m[i], edit_.phantoms[kWall].corners_m[i] + Vec3{0.0, 0.5, 0.0});
+    ExpectPoint(moved->corners_m[i], edit_.phantoms[kWall].corners_m[i] + Vec3{0.0, 0.5, 0.0});
   }
   edit_.phantoms[kWall] = *moved;
-  ExpectNear(PlacedPolygons(session::WithEdit(scene_, edit_).phantoms[kWall])[0][0],
-             {-1.0, 3.5, 0.0});
+  ExpectPoint(PlacedPolygons(session::WithEdit(scene_, edit_).phantoms[kWall])[0][0],
+              {-1.0, 3.5, 0.0});
 }
 
 TEST_F(SurfaceMoves, ACornerOfATurnedWallMovesInItsPlaneAndMakesNoDent) {
   scene_ = SceneOf(std::string(kLying) + "rotation_deg = [0, 0, 90]\ntranslation_m = [4, 2, 0]\n");
   edit_ = session::UneditedScene(scene_, {});
   const Vec3 corner = PlacedPolygons(scene_.phantoms[kWall])[0][2];
-  ExpectNear(corner, {1.0, 4.0, 2.0});
+  ExpectPoint(corner, {1.0, 4.0, 2.0});
   const auto moved = Drag(corner, corner + Vec3{0.0, 0.25, 0.5});
   ASSERT_TRUE(moved);
   edit_.phantoms[kWall] = *moved;
   const auto corners = PlacedPolygons(session::WithEdit(scene_, edit_).phantoms[kWall])[0];
-  ExpectNear(corners[2], corner + Vec3{0.0, 0.25, 0.5});
-  ExpectNear(corners[1], PlacedPolygons(scene_.phantoms[kWall])[0][1]);
+  ExpectPoint(corners[2], corner + Vec3{0.0, 0.25, 0.5});
+  ExpectPoint(corners[1], PlacedPolygons(scene_.phantoms[kWall])[0][1]);
   EXPECT_FALSE(Drag(corner, corner + Vec3{0.0, -2.5, -1.5})) << "a dent";
 }
 
@@ -117,7 +119,7 @@ ground = {height_m = 1.5}
   const auto lower = DraggedSurface(scene_, edit_.phantoms[0], *grip, at({0.0, -1.5, 1.0}),
                                     at({0.0, -1.7, 1.0}), false);
   ASSERT_TRUE(lower);
-  ExpectNear(lower->translation_m, {0.0, -0.2, 0.0});
+  ExpectPoint(lower->translation_m, {0.0, -0.2, 0.0});
   edit_.phantoms[0] = *lower;
   const scene::SceneDescription edited = session::WithEdit(scene_, edit_);
   EXPECT_NEAR(GroundHeight(edited, edited.phantoms[0]), 1.7, 1e-9);
