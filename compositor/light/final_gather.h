@@ -79,16 +79,4 @@ FinalGather Gather(const PatchScene& scene, const SkyTable& sky, Vec3 to_sun,
 FinalGather GatherPatches(const PatchScene& scene, const SkyPatches& patches, int rays, int threads,
                           const std::atomic<bool>* stop = nullptr);
 
-/// Irradiance on every patch after `bounces` reflections. Index 0: with the virtual objects, 1:
-/// phantoms alone (meaningless for patches of objects). Patches inside a body, such as the ground
-/// under a wall, take their neighbours' values. Otherwise they would darken these neighbours.
-struct PatchLight {
-  std::array<std::vector<std::array<float, 3>>, 2> irradiance;
-  /// The part of it that is reflected sunlight; the rest comes from the sky.
-  std::array<std::vector<std::array<float, 3>>, 2> reflected;
-};
-PatchLight SolveRadiosity(const PatchScene& scene, const FinalGather& gathered,
-                          const std::array<float, 3>& sun_irradiance, Vec3 to_sun, int bounces,
-                          int threads);
-
 }  // namespace pleinair::compositor

@@ -10,6 +10,7 @@
 #include "compositor/light/final_gather.h"
 #include "compositor/light/patch_scene.h"
 #include "compositor/light/phantom_paths.h"
+#include "compositor/light/radiosity.h"
 #include "compositor/light/sampling.h"
 #include "compositor/light/scaled_sky.h"
 #include "compositor/light/sky_table.h"
