@@ -7,7 +7,8 @@ void ExposureMeter::Read(ImageView<const std::uint8_t> rgb, const CameraModel& c
                          LinearRgb marker_shade, const FollowedLight& followed,
                          LightSummary* summary) {
   using ExposureScaleSource = LightSummary::ExposureScaleSource;
-  if (locked_ && !filter_.empty()) return;
+  if (locked_ && (holds_ || !filter_.empty())) return;
+  is_used_ = true;
   const auto estimate = meter_ && camera_from_marker
                             ? meter_->Measure(rgb, camera, *camera_from_marker)
                             : std::nullopt;

@@ -26,8 +26,12 @@ class ExposureMeter {
   /// Sets the exposure scale that is used until a frame gives an estimate.
   void SetGuess(LinearRgb exposure_scale) { guess_ = exposure_scale; }
 
-  /// While locked, the exposure scale stays the same once a frame has given an estimate.
-  void SetLocked(bool locked) { locked_ = locked; }
+  /// While locked, the exposure scale stays that of the last frame. If none was read before, it
+  /// stays the same once a frame has given an estimate.
+  void SetLocked(bool locked) {
+    if (locked && !locked_) holds_ = is_used_;
+    locked_ = locked;
+  }
 
   /// Measures a frame and writes the result to `summary`. `marker_shade`: SkyState::marker_shade.
   /// `camera_from_marker`: nothing where the frame
@@ -40,7 +44,8 @@ class ExposureMeter {
   std::optional<compositor::MarkerLightMeter> meter_;
   compositor::ExposureFilter filter_;
   LinearRgb guess_;
-  bool locked_ = false;
+  bool locked_ = false, holds_ = false;  // Holds: what the last frame before the lock had.
+  bool is_used_ = false;                 // A frame was read.
 };
 
 }  // namespace pleinair::session

@@ -75,11 +75,14 @@ Result<void> RecordParts::ClaimFolder(const fs::path& folder) const {
   PLEINAIR_RETURN_IF_ERROR(CheckIsNoRecording(folder));
   const std::string run = RunJson(config_json_, chunks_);
   // Without run.json, files of these names are the user's. They are listed first: another shard may
-  // write both meanwhile, run.json before the others.
+  // write both meanwhile, run.json before the others. An empty folder of parts loses nothing.
   Result<void> free;
+  std::error_code error;
   for (const char* name : {"records.jsonl", "pictures.jsonl", "times.json", "times.html",
                            "report.html", "report.json", "parts"}) {
-    if (free) free = files::CheckFreeName(folder / name);
+    const fs::path file = folder / name;
+    if (fs::is_directory(file, error) && fs::is_empty(file, error)) continue;
+    if (free) free = files::CheckFreeName(file);
   }
   if (const auto there = ReadAll(folder / "run.json")) {
     if (*there == run) return {};
@@ -87,7 +90,6 @@ Result<void> RecordParts::ClaimFolder(const fs::path& folder) const {
                       "choose another folder with -o, or remove it");
   }
   if (!free) return free;
-  std::error_code error;
   fs::create_directories(folder, error);
   if (error) return tl::make_unexpected(WriteError(folder, error.value()));
   return WriteFileAtomically(folder / "run.json", run);

@@ -125,7 +125,7 @@ class Window : public testing::Test {
     const auto newest = [&] {
       std::string last;
       for (const std::string& name : Listing(folder_ / "pictures")) {
-        const bool is_kind = name.starts_with(keys == "ctrl+s" ? "picture" : "window");
+        const bool is_kind = name.starts_with(keys == "ctrl+p" ? "picture" : "window");
         if (is_kind && name.ends_with(".png")) last = name;
       }
       return last;
@@ -147,7 +147,7 @@ class Window : public testing::Test {
       if (!again.empty() && looks++ % 4 == 0) {
         EXPECT_TRUE(Hands(again));
       }
-      now = Screenshot("ctrl+s");
+      now = Screenshot("ctrl+p");
       return !now.empty() && Differing(before, now) > pixels;
     });
     return changed ? now : cv::Mat();
@@ -155,8 +155,8 @@ class Window : public testing::Test {
 
   /// The whole window once it shows the camera image.
   cv::Mat WithPicture() {
-    Screenshot("ctrl+s");
-    return Screenshot("ctrl+shift+s");
+    Screenshot("ctrl+p");
+    return Screenshot("ctrl+shift+p");
   }
 
   void ExpectToClose() {
@@ -173,16 +173,16 @@ class Window : public testing::Test {
 TEST_F(Window, KeysMouseAndPanelChangeTheSceneAndItClosesCleanly) {
   // One frame repeated: every change comes from the scene.
   MakeShortRecording(folder_ / "site", 1, /*with_object=*/true);
-  Open(fmt::format("--camera 'file:{}' --loop --rate 5 --light stated",
+  Open(fmt::format("--camera 'file:{0}' --loop --rate 5 --light stated --save-scene '{0}/set.toml'",
                    (folder_ / "site").string()));
-  const cv::Mat start = Screenshot("ctrl+s");
+  const cv::Mat start = Screenshot("ctrl+p");
   ASSERT_EQ(start.cols, 640);
   // The only object is selected already.
   ASSERT_TRUE(Hands("key --delay 60 Right Right Right"));
   const cv::Mat moved = Changed(start, 500);
   ASSERT_FALSE(moved.empty()) << "by a key";
   // Its centre in the frame, at its position in the window.
-  const cv::Mat whole = Screenshot("ctrl+shift+s");
+  const cv::Mat whole = Screenshot("ctrl+shift+p");
   ASSERT_EQ(whole.cols, 1280);
   ASSERT_TRUE(Hands("key Home"));
   const cv::Mat back = Changed(moved, 500);
@@ -204,7 +204,7 @@ TEST_F(Window, KeysMouseAndPanelChangeTheSceneAndItClosesCleanly) {
   ASSERT_FALSE(later.empty()) << "by the panel";
   // The partitions of the shadow maps tint most of the image while the sun shines. Both tints
   // reduce blue. Light that is still being computed changes less.
-  const auto blue = [&] { return cv::mean(Screenshot("ctrl+s"))[0]; };
+  const auto blue = [&] { return cv::mean(Screenshot("ctrl+p"))[0]; };
   const double plain = blue();
   ASSERT_TRUE(Hands("key m"));
   EXPECT_TRUE(Until([&] { return blue() < 0.8 * plain; })) << "by the key of the shadow maps";
@@ -214,7 +214,10 @@ TEST_F(Window, KeysMouseAndPanelChangeTheSceneAndItClosesCleanly) {
   EXPECT_FALSE(
       Changed(later, 500, "mousemove 1130 347 sleep 0.2 mousedown 1 sleep 0.3 mouseup 1").empty())
       << "by clouds";
-  EXPECT_GT(Differing(whole, Screenshot("ctrl+shift+s")), 2000) << "the window shows it";
+  EXPECT_GT(Differing(whole, Screenshot("ctrl+shift+p")), 2000) << "the window shows it";
+  ASSERT_TRUE(Hands("key ctrl+s"));
+  EXPECT_TRUE(Until([&] { return std::filesystem::exists(folder_ / "site/set.toml"); }));
+  EXPECT_THAT(ReadFile(folder_ / "site/set.toml"), testing::HasSubstr("[[object]]"));
   ExpectToClose();
 }
 
@@ -222,7 +225,7 @@ TEST_F(Window, RecordsWhileItIsShownAndTheLockHoldsTheBrightness) {
   MakeShortRecording(folder_ / "site", 1, /*with_object=*/true);
   Open(fmt::format("--camera 'file:{}' --loop --rate 5 --light stated",
                    (folder_ / "site").string()));
-  const cv::Mat start = Screenshot("ctrl+s");
+  const cv::Mat start = Screenshot("ctrl+p");
   ASSERT_TRUE(Hands("key ctrl+r"));
   const auto recorded = [&] {
     for (const std::string& name : Listing(folder_ / "pictures")) {
@@ -242,7 +245,7 @@ TEST_F(Window, RecordsWhileItIsShownAndTheLockHoldsTheBrightness) {
   for (int i = 0; i < 36; ++i) later += " bracketright";
   ASSERT_TRUE(Hands(later));
   // Three pixel value steps over the whole image. The evening's light appears when it is computed.
-  const auto green = [&] { return cv::mean(Screenshot("ctrl+s"))[1]; };
+  const auto green = [&] { return cv::mean(Screenshot("ctrl+p"))[1]; };
   const double noon = cv::mean(start)[1];
   double dark = noon;
   EXPECT_TRUE(Until([&] { return (dark = green()) < noon - 1.5; })) << dark << " of " << noon;
@@ -264,17 +267,17 @@ TEST_F(Window, IsUsableWhenItIsSmallAndTwiceAsLargeOnAScreenOfTwiceTheScale) {
   cv::Mat top;
   const cv::Mat empty(240, 50, CV_8UC3, cv::Scalar(18, 17, 15));
   EXPECT_TRUE(Until([&] {
-    top = Screenshot("ctrl+shift+s");
+    top = Screenshot("ctrl+shift+p");
     return top.size() == cv::Size(320, 240) && Differing(top.colRange(0, 50), empty) > 500;
   })) << "some of the picture is seen beside the panel";
   // The panel is longer than the window: the wheel scrolls to its end.
   ASSERT_TRUE(Hands("mousemove 200 120"));
   EXPECT_TRUE(Until([&] {
     EXPECT_TRUE(Hands("click 5"));
-    return Differing(top, Screenshot("ctrl+shift+s")) > 3000;
+    return Differing(top, Screenshot("ctrl+shift+p")) > 3000;
   })) << "by the wheel over the panel";
   ASSERT_TRUE(Hands("key F2"));
-  EXPECT_TRUE(Until([&] { return Differing(top, Screenshot("ctrl+shift+s")) > 20000; }))
+  EXPECT_TRUE(Until([&] { return Differing(top, Screenshot("ctrl+shift+p")) > 20000; }))
       << "without the panel";
   ExpectToClose();
 
@@ -307,7 +310,7 @@ TEST_F(Window, WaitsForACameraThatIsNotThereAndRecordsNothingOfIt) {
     return ReadFile(folder_ / "err").find("camera waiting: v4l2:serial=no such camera") !=
            std::string::npos;
   }));
-  EXPECT_FALSE(Screenshot("ctrl+shift+s").empty()) << "it is drawn while it waits";
+  EXPECT_FALSE(Screenshot("ctrl+shift+p").empty()) << "it is drawn while it waits";
   ExpectToClose();
 }
 
