@@ -257,7 +257,7 @@ TEST(Calibrate, RefusesInOneLineWithTheReasonAndWritesNothing) {
       {{"--charuco", "8x6", "--dictionary", "9x9_50", few}, "known are 4x4_50"},
       {{"--charuco", "30x30", "--dictionary", "4x4_50", few}, "has 50 markers"},
       {{"--board", folder / "board.json", few}, "cannot be used"},
-      {{"--board", folder / "few/0.png", few}, "is no description of a board"},
+      {{"--board", folder / "few/0.png", few}, "is not text"},
       {{few}, "the board in the images is not given"},
       {{"--charuco", "8x6", "--chessboard", "9x6", few}, "more than one board"},
       {{"--charuco", "8x6", "v4l2:/dev/none", few}, "can only be calibrated alone"},

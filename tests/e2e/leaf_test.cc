@@ -121,8 +121,8 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"Picture", {"-o", "OUT/leaf.gif"}, "is not the name of a PNG picture"},
         Refusal{"SpectraToOutput", {"--spectra", "-"}, "cannot be standard output"},
         Refusal{"EmptyName", {"fit", ""}, "SPECTRUM"},
-        Refusal{"NoTable", {"--csv", "OUT/none.csv"}, "none.csv: cannot read"},
-        Refusal{"NoSpectrum", {"fit", "OUT/none.csv"}, "none.csv: cannot read"},
+        Refusal{"NoTable", {"--csv", "OUT/none.csv"}, "none.csv: there is no such file"},
+        Refusal{"NoSpectrum", {"fit", "OUT/none.csv"}, "none.csv: there is no such file"},
         Refusal{"NoStructure", {"maps", "OUT/none.png", "-o", "OUT/maps"}, "none.png"}),
     [](const auto& refusal) { return std::string(refusal.param.name); });
 

@@ -153,7 +153,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "a.exr: is the name of a picture"},
         Refusal{"NoSuchTable",
                 {"--sun", "180,30", "--model", "perez", "--csv", "OUT/none.csv", "-o", "OUT/a.csv"},
-                "none.csv: cannot read"}),
+                "none.csv: there is no such file"}),
     [](const auto& refusal) { return std::string(refusal.param.name); });
 
 TEST(Sky, NamesTheLineOfABrokenTableAndWritesNothing) {

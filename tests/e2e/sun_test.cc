@@ -275,7 +275,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"PathIntoNoFolder",
                 {"--at", "50,14", "--path", "OUT/none/a.png", "--year", "2025"},
                 "cannot write"},
-        Refusal{"NoSuchTable", {"--csv", "OUT/none.csv"}, "none.csv: cannot read"}),
+        Refusal{"NoSuchTable", {"--csv", "OUT/none.csv"}, "none.csv: there is no such file"}),
     [](const auto& refusal) { return std::string(refusal.param.name); });
 
 TEST(Sun, NamesTheLineOfABrokenTableAndWritesNothing) {
