@@ -189,12 +189,11 @@ void AddNewCommand(CLI::App& app, CommandResult& result) {
       ->check(NumberRange(0.0, 1000.0));
   command->add_option("--sky", arguments->words.sky,
                       "Cloudiness: clear (default), hazy, partly cloudy, overcast");
-  command->add_option(
-      "--calibration", arguments->words.calibration,
-      "Calibration of the film's lens; one of another size is scaled and turned. "
-      "Default: the film's own markers tell it, else "
-      "the focal length in its tags, else "
-      "26 mm on 35 mm film, as of a usual phone");
+  command->add_option("--calibration", arguments->words.calibration,
+                      "Calibration of the film's lens; one of another size is scaled and turned. "
+                      "Default: the film's own markers tell it, else "
+                      "the focal length in its tags, else "
+                      "26 mm on 35 mm film, as of a usual phone");
   command->add_option("--marker", arguments->words.marker,
                       "Marker to use, sg_17 or tag36h11_0. Default: the one most frames show");
   command->add_flag("-y,--yes", arguments->flags.yes,

@@ -15,8 +15,8 @@
 
 #include "app/options/picture_size.h"
 #include "app/options/shard_option.h"
-#include "app/output/resumption.h"
 #include "app/options/trajectory_options.h"
+#include "app/output/resumption.h"
 #include "app/replay/output_names.h"
 #include "app/replay/report/report_json.h"
 #include "app/terminal/interrupt.h"
