@@ -14,9 +14,9 @@
 
 #include "compositor/embedded_shaders.h"
 #include "compositor/light/changing/changing_bodies.h"
-#include "compositor/light/environment_map.h"
-#include "compositor/passes/aerial_fog.h"
+#include "compositor/passes/frame_light.h"
 #include "compositor/passes/frame_uniforms.h"
+#include "compositor/passes/glm_vectors.h"
 #include "compositor/passes/object_pass.h"
 #include "compositor/passes/render_camera.h"
 #include "compositor/passes/render_targets.h"
@@ -38,9 +38,6 @@ constexpr double kWarpedSupersampling = 1.5;
 // Half of an 8-bit step at black, sRGB. Less airlight changes no image.
 constexpr double kNoticeableAir = 0.5 / 255.0 / 12.92;
 
-glm::vec3 ToGlm(Vec3 v) { return {v.x, v.y, v.z}; }
-glm::vec3 ToGlm(LinearRgb c) { return {c.r, c.g, c.b}; }
-
 static_assert(std::tuple_size_v<decltype(ComposerOptions::fog)> == shadows::kMaxPartitions);
 
 /// Render targets for one image size.
@@ -49,30 +46,6 @@ struct Canvas {
   RenderTargets targets;
   CameraPicture picture;
   std::optional<ShadowDebugView> debug_view;  // Created on first use.
-};
-
-/// Daylight of the frames.
-struct SunAndSky {
-  gl::GlTexture environment;
-  AerialFog air;
-  Vec3 to_sun;
-  LinearRgb sun_normal_lux;
-  glm::vec3 up{0.0F, 0.0F, 1.0F};  // Marker coordinates.
-  LinearRgb level_sun, level_sky;  // Illuminance of level ground.
-  LightMix mix;
-
-  LinearRgb SunNow() const { return sun_normal_lux * mix.sun; }
-  /// Light on level ground relative to that without the mix.
-  LinearRgb LevelMix() const {
-    const LinearRgb none{1e-9, 1e-9, 1e-9};  // In the night both are 0.
-    return (level_sun * mix.sun + level_sky * mix.sky + none) / (level_sun + level_sky + none);
-  }
-};
-
-/// Sun transmittance of unmodelled objects in view.
-struct SunlightInView {
-  std::shared_ptr<const SunTransmittanceMap> transmittance;
-  gl::GlTexture texture;
 };
 
 struct Passes {
@@ -129,8 +102,10 @@ class GlComposer : public Composer {
   GlComposer(const CameraModel& camera, gl::EglContext context)
       : context_(std::move(context)), camera_(camera) {}
 
-  Result<void> UploadSunlight(const SunTransmittanceMap& sun_transmittance);
-  bool HasSun() const { return Luminance(sky_.SunNow()) > 0.0; }
+  /// Leaves change their color with those of sun and sky.
+  void SetLightColors(const sky::SkyModel& day) {
+    surfaces_.SetLightColors(day.SunNormalIrradiance(), day.SkyHorizontalIrradiance());
+  }
   Result<void> SetRenderSize(const ComposerOptions& options);
   shadows::ShadowMapOptions MapOptions(const ComposerOptions& options) const;
   Result<void> MakeShadows(const shadows::ShadowMapOptions& options);
@@ -152,8 +127,7 @@ class GlComposer : public Composer {
   Canvas canvas_;
   std::optional<CameraLook> look_;
   ShadowRatioPass::ShadowOptions unmodelled_;
-  SunAndSky sky_;
-  SunlightInView sunlight_;
+  FrameLight light_;
   Passes passes_;
   SceneSurfaces surfaces_;
   SceneShadows shadows_;
@@ -167,12 +141,7 @@ Result<std::unique_ptr<Composer>> GlComposer::Make(const CameraModel& camera,
   RegisterShaders();
   std::unique_ptr<GlComposer> composer(new GlComposer(camera, std::move(context)));
   GlComposer& c = *composer;
-  PLEINAIR_ASSIGN_OR_RETURN(
-      c.sky_.environment,
-      gl::GlTexture::Create2DArray(GL_RGB32F, EnvironmentMap::kWidth, EnvironmentMap::kHeight,
-                                   EnvironmentMap::kLevels));
-  c.sky_.environment.SetWrap(GL_REPEAT);
-  PLEINAIR_RETURN_IF_ERROR(c.UploadSunlight({}));
+  PLEINAIR_ASSIGN_OR_RETURN(c.light_, FrameLight::Create());
   PLEINAIR_ASSIGN_OR_RETURN(c.passes_.ratio, ShadowRatioPass::Create());
   PLEINAIR_ASSIGN_OR_RETURN(c.surfaces_, SceneSurfaces::Create(scene));
   PLEINAIR_ASSIGN_OR_RETURN(c.changing_, ChangingBodies::Create(scene));
@@ -255,19 +224,12 @@ Result<const SurfacePrograms*> GlComposer::ProgramsFor(const FrameUniforms& fram
 Result<void> GlComposer::SetLight(const std::vector<LitMesh>& lit, const sky::SkyModel& day,
                                   const Mat3& marker_from_world, LinearRgb from_below) {
   PLEINAIR_RETURN_IF_ERROR(context_.MakeCurrent());
-  SetSun(day, marker_from_world);
-  sky_.air = AerialFog(day, marker_from_world);
-  sky_.up = ToGlm(marker_from_world * Vec3{0.0, 0.0, 1.0});
-  sky_.level_sun = day.SunNormalIrradiance() * std::max(0.0, day.ToSun().xyz.z);
-  sky_.level_sky = day.SkyHorizontalIrradiance();
-  sky_.mix = {};
+  light_.SetDay(day, marker_from_world);
+  SetLightColors(day);
   if (changing_) PLEINAIR_RETURN_IF_ERROR(changing_->SetLight(lit, day, marker_from_world));
   PLEINAIR_RETURN_IF_ERROR(surfaces_.SetLit(changing_ ? changing_->meshes() : lit));
-  if (!surfaces_.materials().HasGloss()) return {};  // No program samples it.
-  const EnvironmentMap map = BuildEnvironmentMap(day, marker_from_world, from_below);
-  for (int level = 0; level < EnvironmentMap::kLevels; ++level) {
-    sky_.environment.UploadLayer(level, GL_RGB, GL_FLOAT, map.levels[level].data());
-  }
+  // Otherwise no program samples it.
+  if (surfaces_.materials().HasGloss()) light_.SetEnvironment(day, marker_from_world, from_below);
   return {};
 }
 
@@ -278,50 +240,34 @@ Result<void> GlComposer::SetResponse(const CameraResponse& response) {
 }
 
 Result<void> GlComposer::SetLightMix(const std::vector<LitMesh>& lit, const LightMix& mix) {
-  if (mix == sky_.mix) return {};
+  if (mix == light_.mix()) return {};
   PLEINAIR_RETURN_IF_ERROR(context_.MakeCurrent());
-  sky_.mix = mix;
+  light_.SetMix(mix);
   return surfaces_.SetMix(changing_ ? changing_->meshes() : lit, mix);
 }
 
 Result<void> GlComposer::SetAmbient(const std::vector<LitMesh>& lit) {
   if (changing_) return {};
   PLEINAIR_RETURN_IF_ERROR(context_.MakeCurrent());
-  return surfaces_.SetMix(lit, sky_.mix);
+  return surfaces_.SetMix(lit, light_.mix());
 }
 
 void GlComposer::SetSun(const sky::SkyModel& day, const Mat3& marker_from_world) {
-  sky_.to_sun = marker_from_world * day.ToSun().xyz;
-  sky_.sun_normal_lux = day.SunNormalIrradiance();
-  surfaces_.SetLightColors(sky_.sun_normal_lux, day.SkyHorizontalIrradiance());
+  light_.SetSun(day, marker_from_world);
+  SetLightColors(day);
 }
 
 Result<void> GlComposer::SetSunTransmittance(
     const std::shared_ptr<const SunTransmittanceMap>& sun_transmittance) {
-  if (sun_transmittance == sunlight_.transmittance) return {};
   PLEINAIR_RETURN_IF_ERROR(context_.MakeCurrent());
-  PLEINAIR_RETURN_IF_ERROR(
-      UploadSunlight(sun_transmittance ? *sun_transmittance : SunTransmittanceMap{}));
-  sunlight_.transmittance = sun_transmittance;
-  return {};
-}
-
-/// An empty map becomes one texel with all of the sun.
-Result<void> GlComposer::UploadSunlight(const SunTransmittanceMap& sun_transmittance) {
-  const bool empty = sun_transmittance.share.empty();
-  PLEINAIR_ASSIGN_OR_RETURN(sunlight_.texture,
-                            gl::GlTexture::Create2D(GL_R16F, empty ? 1 : sun_transmittance.width,
-                                                    empty ? 1 : sun_transmittance.height));
-  constexpr float kAll = 1.0F;
-  sunlight_.texture.Upload(GL_RED, GL_FLOAT, empty ? &kAll : sun_transmittance.share.data());
-  return {};
+  return light_.SetTransmittance(sun_transmittance);
 }
 
 FogSplits GlComposer::FogBeforeObjects(const shadows::View& view, const glm::dvec3& eye_m) const {
   const shadows::Box& objects = surfaces_.placement().object_bounds();
   const glm::dvec3 to_objects = 0.5 * (objects.min + objects.max) - eye_m;
   const double far_off = glm::length(to_objects);
-  return sky_.air.Along(
+  return light_.air().Along(
       far_off > 0.0 ? to_objects / far_off : glm::dvec3(0.0, 1.0, 0.0),
       shadows::PracticalSplits(view.near_m, view.far_m, options_.shadow_partitions,
                                options_.shadow_split_weight),
@@ -348,14 +294,13 @@ Result<void> GlComposer::SortSurfaces() {
   SunOnPhantoms sun;
   // Where sunlight is measured in the image, it also affects how much a change of sky light
   // matters. The sun then counts on all triangles.
-  sun.whole = unmodelled_.assume_unmodelled ||
-              (sunlight_.transmittance && !sunlight_.transmittance->share.empty());
-  if (HasSun()) {
+  sun.whole = unmodelled_.assume_unmodelled || light_.IsShadedByUnmodelled();
+  if (light_.HasSun()) {
     sun.window = shadows_.Window();
-    sun.normal_lux = ToGlm(sky_.SunNow());
+    sun.normal_lux = ToGlm(light_.SunNow());
   }
   PLEINAIR_RETURN_IF_ERROR(surfaces_.SortPhantoms(sun));
-  return surfaces_.SortObjects(HasSun() ? ToGlm(sky_.to_sun) : glm::vec3(0.0F));
+  return surfaces_.SortObjects(light_.HasSun() ? ToGlm(light_.to_sun()) : glm::vec3(0.0F));
 }
 
 Result<void> GlComposer::DrawScene(const SurfacePrograms& programs, const shadows::View& view,
@@ -368,8 +313,8 @@ Result<void> GlComposer::DrawScene(const SurfacePrograms& programs, const shadow
   passes_.ratio.DrawSurfaces(canvas_.targets, surfaces_, frame);
   passes_.objects.DrawSurfaces(canvas_.targets, surfaces_, frame);
   glDisable(GL_CULL_FACE);
-  sunlight_.texture.Bind(5);
-  passes_.objects.Draw(canvas_.targets, surfaces_, programs, frame, sky_.environment,
+  light_.transmittance().Bind(5);
+  passes_.objects.Draw(canvas_.targets, surfaces_, programs, frame, light_.environment(),
                        PictureOf(canvas_.camera, view, surfaces_.placement().object_bounds()));
   canvas_.picture.BindForShading(2, 3, 4);
   passes_.ratio.Draw(canvas_.targets, surfaces_, programs, frame, unmodelled_);
@@ -386,15 +331,7 @@ FrameUniforms GlComposer::FrameOf(const shadows::View& view,
   frame.eye_m = ToGlm(camera_from_marker.Inverse().translation_m);
   frame.ray = RaysThroughPixels(canvas_.camera, view);
   frame.exposure_scale = ToGlm(exposure_scale);
-  if (HasSun()) frame.to_sun = ToGlm(sky_.to_sun);
-  frame.sun_normal_lux = ToGlm(sky_.SunNow());
-  frame.environment = {ToGlm(sky_.mix.sky), ToGlm(sky_.LevelMix()), sky_.up};
-  if (sunlight_.transmittance && !sunlight_.transmittance->share.empty()) {
-    const auto rows = sunlight_.transmittance->TextureFromMarker();
-    for (int i = 0; i < 2; ++i) {
-      frame.texture_from_marker[i] = {rows[i][0], rows[i][1], rows[i][2], rows[i][3]};
-    }
-  }
+  light_.SetUniforms(&frame);
   frame.fog = FogBeforeObjects(view, frame.eye_m);
   for (glm::vec3& light : frame.fog.inscattered) light *= frame.environment.below_mix;
   const auto is_noticed = [&](const glm::vec3& light) {
@@ -412,13 +349,12 @@ FrameUniforms GlComposer::FrameOf(const shadows::View& view,
 Result<shadows::View> GlComposer::UpdateScene(const Transform<Camera, Marker>& camera_from_marker) {
   if (changing_ && changing_->Update()) {
     PLEINAIR_RETURN_IF_ERROR(
-        surfaces_.SetShapes(changing_->meshes(), changing_->first_body(), sky_.mix));
+        surfaces_.SetShapes(changing_->meshes(), changing_->first_body(), light_.mix()));
   }
   const shadows::View view =
       ViewOf(canvas_.camera, camera_from_marker, surfaces_.placement().bounds());
-  // A sun below the horizon lights nothing and casts no shadow.
-  if (HasSun()) {
-    PLEINAIR_RETURN_IF_ERROR(shadows_.Update(surfaces_, {sky_.to_sun}, view));
+  if (light_.HasSun()) {
+    PLEINAIR_RETURN_IF_ERROR(shadows_.Update(surfaces_, {light_.to_sun()}, view));
   }
   PLEINAIR_RETURN_IF_ERROR(SortSurfaces());
   return view;
@@ -445,7 +381,7 @@ Result<RgbImage> GlComposer::Compose(ImageView<const std::uint8_t> rgb,
   PLEINAIR_ASSIGN_OR_RETURN(const SurfacePrograms* programs, ProgramsFor(frame));
   PLEINAIR_RETURN_IF_ERROR(DrawScene(*programs, view, frame));
   canvas_.picture.Draw(canvas_.targets);
-  if (options_.show_shadow_maps && HasSun()) {
+  if (options_.show_shadow_maps && light_.HasSun()) {
     PLEINAIR_RETURN_IF_ERROR(DrawDebugView(view));
   }
   return canvas_.picture.Read();

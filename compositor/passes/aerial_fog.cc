@@ -13,7 +13,7 @@ constexpr int kAzimuths = 12, kElevations = 3, kDistances = 13;
 constexpr double kMaxElevation = 30.0 * std::numbers::pi / 180.0;
 constexpr double kMinDistance_m = 4.0;  // Doubled from node to node: 16 km at the end.
 
-glm::dvec3 ToGlm(LinearRgb c) { return {c.r, c.g, c.b}; }
+glm::dvec3 ToDoubles(LinearRgb c) { return {c.r, c.g, c.b}; }
 
 double DistanceOf(int node) { return kMinDistance_m * std::exp2(node); }
 
@@ -37,8 +37,8 @@ AerialFog::AerialFog(const sky::SkyModel& day, const Mat3& marker_from_world)
         const double metres = DistanceOf(distance);
         const sky::SkyModel::AirBetween air = day.AirTo(towards, Metres(metres));
         const glm::dvec3 transmittance =
-            glm::clamp(ToGlm(air.transmittance), glm::dvec3(1e-12), glm::dvec3(1.0));
-        table_.push_back({-glm::log(transmittance) / metres, ToGlm(air.inscattered) / metres});
+            glm::clamp(ToDoubles(air.transmittance), glm::dvec3(1e-12), glm::dvec3(1.0));
+        table_.push_back({-glm::log(transmittance) / metres, ToDoubles(air.inscattered) / metres});
       }
     }
   }
