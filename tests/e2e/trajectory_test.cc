@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <filesystem>
-#include <memory>
 #include <nlohmann/json.hpp>
-#include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <set>
 #include <string>
 #include <vector>
@@ -15,11 +13,10 @@
 #include <fmt/format.h>
 
 #include "base/quaternion.h"
+#include "tests/e2e/marker_recording.h"
 #include "tests/e2e/refusal.h"
 #include "tests/e2e/run_program.h"
 #include "tests/e2e/tum_file.h"
-#include "tests/tracker/marker_rendering.h"
-#include "tracker/surf_golay/sg_marker_pattern.h"
 
 namespace pleinair::e2e {
 namespace {
@@ -61,28 +58,11 @@ Transform<WalkWorld, Camera> WalkPoseInWorld(int frame, double unit_m) {
   return pose;
 }
 
-/// A recording whose frames `seen` show the marker, and a scene.
+/// A recording whose frames `seen` show the marker.
 void WriteWalk(const fs::path& folder, const std::set<int>& seen) {
-  fs::create_directories(folder / "frames");
-  for (int i = 0; i < kWalkFrames; ++i) {
-    std::vector<tracker::RenderedMarker> markers;
-    if (seen.contains(i)) {
-      tracker::RenderedMarker& marker = markers.emplace_back();
-      marker.pattern = std::make_shared<const tracker::MarkerPattern>(tracker::SgMarkerPattern(17));
-      marker.size = Metres(0.2);
-      marker.camera_from_marker = WalkPose(i);
-    }
-    GreyImage grey = tracker::RenderMarkers(WalkLens(), markers, {});
-    cv::imwrite((folder / fmt::format("frames/{:03}.png", i)).string(),
-                cv::Mat(grey.height(), grey.width(), CV_8UC1, grey.data()));
-  }
-  WriteFile(folder / "recording.json",
-            R"({"frames": "frames", "frame_rate_hz": 30, "calibration": {"image_width": 640,
-                "image_height": 480, "model": "opencv-radtan", "fx": 700, "fy": 700, "cx": 319.5,
-                "cy": 239.5, "distortion_k1_k2_p1_p2_k3": [0, 0, 0, 0, 0]}})");
-  WriteFile(folder / "scene.toml",
-            "time = \"2025-09-14T11:05:00Z\"\n[place]\nlatitude_deg = 50\nlongitude_deg = 14\n"
-            "[marker]\nfamily = \"sg\"\nid = 17\nsize_mm = 200\nheading_deg = 0\n");
+  std::vector<std::vector<ShownMarker>> frames(kWalkFrames);
+  for (const int i : seen) frames[static_cast<std::size_t>(i)].push_back({17, WalkPose(i)});
+  WriteMarkerRecording(folder, WalkLens(), frames);
 }
 
 std::string Seven(Vec3 t, const Quaternion& q, const char* separator) {

@@ -15,6 +15,7 @@
 
 #include "session/anchor_follower.h"
 #include "session/marker_tracks.h"
+#include "tests/session/phone_camera.h"
 #include "tracker/pose/anchor_fit.h"
 #include "tracker/pose/planar_pose.h"
 
@@ -23,24 +24,6 @@ namespace {
 
 constexpr double kFrameRate_hz = 30.0;
 constexpr double kNoise_px = 0.05;
-
-CameraModel PhoneLens() {
-  CameraModel camera;
-  camera.width = 1920;
-  camera.height = 1080;
-  camera.fx = camera.fy = 1500.0;
-  camera.cx = 959.5;
-  camera.cy = 539.5;
-  camera.distortion[0] = 0.05;
-  return camera;
-}
-
-Mat3 About(int axis, double angle) {
-  const double c = std::cos(angle), s = std::sin(angle);
-  if (axis == 0) return Mat3{{1, 0, 0, 0, c, -s, 0, s, c}};
-  if (axis == 1) return Mat3{{c, 0, s, 0, 1, 0, -s, 0, c}};
-  return Mat3{{c, -s, 0, s, c, 0, 0, 0, 1}};
-}
 
 /// The reference marker lies on the ground; an anchor of another size lies turned beside it.
 struct Place {

@@ -5,35 +5,19 @@
 #include <algorithm>
 #include <array>
 
+#include "tests/session/phone_camera.h"
 #include "tracker/pose/planar_pose.h"
 
 namespace pleinair::session {
-namespace {
-
-Mat3 TurnAbout(int axis, double angle) {
-  const double c = std::cos(angle), s = std::sin(angle);
-  if (axis == 0) return Mat3{{1, 0, 0, 0, c, -s, 0, s, c}};
-  if (axis == 1) return Mat3{{c, 0, s, 0, 1, 0, -s, 0, c}};
-  return Mat3{{c, -s, 0, s, c, 0, 0, 0, 1}};
-}
-
-}  // namespace
-
 MadeTrajectory::MadeTrajectory() {
-  camera_.width = 1920;
-  camera_.height = 1080;
-  camera_.fx = camera_.fy = 1500.0;
-  camera_.cx = 959.5;
-  camera_.cy = 539.5;
-  camera_.distortion[0] = 0.05;
   for (int i = 0; i < kFrames; ++i) times_.push_back({i, std::llround(i * 1e9 / kFrameRate_hz)});
 }
 
 Transform<Camera, Marker> MadeTrajectory::TruePose(double time_s) {
   const double sway = 2.0 * std::numbers::pi * time_s;
-  const Mat3 rotation = TurnAbout(1, 0.1 * time_s - 0.2 + 0.02 * std::sin(1.3 * sway)) *
-                        TurnAbout(2, 0.02 * std::sin(0.7 * sway)) *
-                        TurnAbout(0, -2.3 + 0.02 * std::sin(0.9 * sway));
+  const Mat3 rotation = About(1, 0.1 * time_s - 0.2 + 0.02 * std::sin(1.3 * sway)) *
+                        About(2, 0.02 * std::sin(0.7 * sway)) *
+                        About(0, -2.3 + 0.02 * std::sin(0.9 * sway));
   return {rotation,
           {-0.3 - 0.05 * time_s + 0.02 * std::sin(1.1 * sway), 0.1 + 0.01 * std::sin(1.6 * sway),
            2.0 - 0.12 * time_s}};
@@ -63,7 +47,7 @@ std::vector<Observation> MadeTrajectory::Seen(const std::vector<int>& frames, do
 }
 
 Transform<TrajectoryWorld, Marker> MadeTrajectory::WorldFromMarker() const {
-  return {TurnAbout(0, 1.1) * TurnAbout(2, -2.4), {3.0, -1.5, 0.7}};
+  return {About(0, 1.1) * About(2, -2.4), {3.0, -1.5, 0.7}};
 }
 
 GivenTrajectory MadeTrajectory::Given(double unit_m, std::int64_t clock_ns) const {

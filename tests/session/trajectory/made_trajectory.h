@@ -11,6 +11,7 @@
 #include "base/frames.h"
 #include "session/marker_tracks.h"
 #include "session/trajectory/given_trajectory.h"
+#include "tests/session/phone_camera.h"
 
 namespace pleinair::session {
 
@@ -47,7 +48,7 @@ class MadeTrajectory {
  private:
   Transform<TrajectoryWorld, Marker> WorldFromMarker() const;
 
-  CameraModel camera_;
+  CameraModel camera_ = PhoneLens();
   std::vector<FrameTime> times_;
   std::mt19937 random_{5};
 };
