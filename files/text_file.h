@@ -13,7 +13,8 @@ constexpr std::size_t kMaxDescriptionBytes = std::size_t{16} << 20;
 /// Size limit of a calibration: a page of numbers, or a scene.json with its poses.
 constexpr std::size_t kMaxCalibrationBytes = std::size_t{4} << 20;
 
-/// Error (input): it is no regular file, nor a link to one; says what it is instead.
+/// Checks that a name is that of a regular file, or of a link to one. Error (input): it is not; the
+/// message states what it is instead.
 Result<void> CheckRegularFile(const std::filesystem::path& file);
 
 /// Reads all bytes of a regular file of at most `max_bytes`. Errors: no regular file, not

@@ -81,8 +81,8 @@ Result<SceneFacts> ParseSceneToml(std::string_view bytes, const std::string& nam
 /// Parses either format, chosen by content.
 Result<SceneFacts> ParseScene(std::string_view bytes, const std::string& name);
 
-/// Checks the range of every value that is present, so that the error names the file that holds it,
-/// before it serves another file as a fallback. ParseSceneJson() does so by itself.
+/// Checks the range of every value that is present. Call it before WithFallback(), so that the
+/// error names the file that holds the value. ParseSceneJson() does so by itself.
 Result<void> CheckRanges(const SceneFacts& facts, const std::string& name);
 
 /// Takes missing place, time, marker and sky from `fallback`; never models.

@@ -162,7 +162,7 @@ class TomlWalk {
 
   std::string_view text_;
   std::size_t at_ = 0;
-  std::size_t key_end_ = 0;  // Of the last key, without the white space after it.
+  std::size_t key_end_ = 0;  // End of the last key, without the white space after it.
 };
 
 }  // namespace

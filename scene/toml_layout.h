@@ -9,13 +9,13 @@
 
 namespace pleinair::scene {
 
-/// Where a value is in a TOML text (bytes begin to end), and its key.
+/// Where a value and its key are in a TOML text: byte offsets, `end` excluded.
 struct TomlEntry {
   std::vector<std::string> keys;  ///< More than one if dotted; none for an item of an array.
   std::size_t key_begin = 0, key_end = 0;
   std::size_t begin = 0, end = 0;
   bool is_array = false, is_table = false;
-  std::vector<TomlEntry> items;  ///< Of an array or an inline table.
+  std::vector<TomlEntry> items;  ///< Items of an array, entries of an inline table.
 };
 
 /// A table under a header, or the top of the text.

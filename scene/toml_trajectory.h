@@ -9,7 +9,7 @@
 namespace pleinair::scene {
 
 /// Reads [trajectory]; nothing if the scene has none. Paths are relative to the scene's folder.
-/// Errors: unknown keys, no file, values out of range.
+/// Errors (input): unknown keys, no file, values out of range.
 Result<std::optional<TrajectoryDescription>> ReadTrajectoryTable(const TomlTable& scene);
 
 }  // namespace pleinair::scene

@@ -17,7 +17,8 @@ struct TrajectoryDescription {
   std::optional<double> scale;       ///< Metres of one of its units; unset: by its format.
   bool is_scale_free = false;        ///< Its unit is not known, whatever its format.
   int turn_deg = 0;  ///< Frames are turned clockwise against its images by 0, 90, 180 or 270.
-  std::optional<double> max_gap_s;      ///< Between poses, across which poses are interpolated.
+  /// Longest time between poses across which poses are interpolated.
+  std::optional<double> max_gap_s;
   std::optional<double> frame_rate_hz;  ///< Images a second of a COLMAP model; unset: an image's
                                         ///< number is that of its frame.
 };

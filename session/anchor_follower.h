@@ -25,8 +25,8 @@ class AnchorFollower {
 
   /// Adds the frame that was added to `tracks` last. Returns the observation of the reference
   /// marker: its own if the frame shows no other placed marker, else with the pose by all of them.
-  /// Nothing if the frame shows no placed marker. Costs some 0.1 ms, and up to a few hundred where
-  /// places are estimated again.
+  /// Nothing if the frame shows no placed marker. Costs some 0.1 ms, and up to a few hundred
+  /// milliseconds where places are estimated again.
   std::optional<Observation> Add(const MarkerTracks& tracks, std::int64_t frame_index);
 
   /// The reference marker.

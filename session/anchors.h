@@ -37,7 +37,7 @@ struct AnchorSummary {
 struct AnchoredPath {
   std::vector<Observation> observations;  ///< One per frame with a pose.
   AnchorSummary summary;
-  std::optional<TrajectorySummary> trajectory{};  ///< Of the given one.
+  std::optional<TrajectorySummary> trajectory{};  ///< Nothing: none was given.
 };
 
 /// Name of an anchor's marker.

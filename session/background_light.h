@@ -29,11 +29,11 @@ namespace pleinair::session {
 ///
 /// A new light is computed when the sun has moved, the scene was edited, or frames gave an estimate
 /// of sun and sky. The first light is a draft with very few rays, so that the first frame need not
-/// wait; the next ones are traced with few rays. Meanwhile daylight coefficients are
-/// computed; with them each further light takes a fraction of a second. A moved object restarts
-/// this, and is drawn with the last light until its next light is ready. A moved phantom changes
-/// with its next light. Afterwards the phantoms' shadows in the frames are used to estimate the
-/// light, as in replay, once a minute. LightFilter combines these estimates.
+/// wait. The next ones are traced with few rays. Meanwhile daylight coefficients are computed; with
+/// them each further light takes a fraction of a second. A moved object restarts this, and is drawn
+/// with the last light until its next light is ready. A moved phantom changes with its next light.
+/// Afterwards the phantoms' shadows in the frames are used to estimate the light, as in replay,
+/// once a minute. LightFilter combines these estimates.
 class BackgroundLight {
  public:
   struct Setup {
@@ -45,7 +45,7 @@ class BackgroundLight {
     compositor::SkyState skies;  ///< By the scene description.
     UtcTime time;
     CameraResponse response = {};
-    /// Of the placed models, if there is one; null: it is made.
+    /// Light solver of the placed models; null: it is made.
     std::shared_ptr<const compositor::LightSolver> solver = {};
     scene::MarkerReflectance marker_reflectance = {};  ///< Size 0: not known yet.
   };

@@ -8,17 +8,18 @@
 
 namespace pleinair::session {
 
-/// Fades the indirect illumination from one baked light into the next, so that a better light of
-/// the same scene does not appear with a jump.
+/// Fades the indirect illumination from one baked light into the next. A better light of the same
+/// scene thus appears without a jump.
 class LightFade {
  public:
-  /// Begins a fade from the light in use at the next call of At(). There is none where the surfaces
-  /// differ (LitMesh::geometry).
+  /// Begins a fade from the light in use at the next call of At(). Lights of different surfaces
+  /// (LitMesh::geometry) do not fade.
   void Begin(const std::vector<compositor::LitMesh>& in_use,
              const std::vector<compositor::LitMesh>& next);
 
-  /// The light of a frame at `time`: a linear mix with `next` over 0.4 s of frame time. Nothing
-  /// where no fade goes on; `next` is then to be used as it is, for the first time where `on()`.
+  /// Returns the light of a frame at `time`: a linear mix with `next` over 0.4 s of frame time.
+  /// Nothing: no fade goes on, and `next` is used as it is. A fade has just ended if on() was true
+  /// before the call.
   std::optional<std::vector<compositor::LitMesh>> At(UtcTime time,
                                                      const std::vector<compositor::LitMesh>& next);
 
@@ -27,7 +28,7 @@ class LightFade {
 
  private:
   std::vector<compositor::LitMesh> from_;   // Empty: no fade goes on.
-  std::vector<compositor::LitMesh> mixed_;  // Of the last frame.
+  std::vector<compositor::LitMesh> mixed_;  // Light of the last frame.
   std::optional<UtcTime> start_;
 };
 

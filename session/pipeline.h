@@ -75,7 +75,7 @@ struct ComposedFrame {
   RenderTimes times;
 };
 
-/// Tracks the camera in a frame and composes the virtual objects into it: a frame goes in; the
+/// Tracks the camera in a frame and composes the virtual objects into it. A frame goes in; the
 /// pose, the light and the composed image come out. Replay, live sessions and users' programs share
 /// this class. Frames must come in order, since each stage keeps what it learns for the next frame.
 ///

@@ -24,7 +24,7 @@ struct ObjectPlace {
 /// Placement of a phantom that the scene describes without a file (scene/described_surface.h).
 struct SurfacePlace {
   Vec3 translation_m;           ///< As in scene::ModelReference.
-  std::vector<Vec3> corners_m;  ///< Of a wall; else empty.
+  std::vector<Vec3> corners_m;  ///< Corners of a wall in its own coordinates; else empty.
   bool operator==(const SurfacePlace&) const = default;
 };
 

@@ -125,7 +125,7 @@ class SceneLight {
   bool concluded_ = false;
   std::shared_ptr<const BakedLighting> in_use_;
   bool made_elsewhere_ = false;
-  LightFade fade_;                         // Of the light made elsewhere.
+  LightFade fade_;                         // Fades into light made elsewhere.
   std::optional<LightFollower> follower_;  // For the frames probed so far; queries probed_.
   std::shared_ptr<const compositor::LightSolver> probed_;
 };

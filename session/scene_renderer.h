@@ -137,7 +137,7 @@ class SceneRenderer {
                        const FollowedLight& followed = {}, bool shows_marker = true);
 
   const LightSummary& light() const { return summary_; }
-  /// Of the last Render() or Advance().
+  /// Times of the last Render() or Advance().
   const RenderTimes& times() const { return times_; }
 
  private:

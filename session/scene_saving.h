@@ -9,10 +9,11 @@
 
 namespace pleinair::session {
 
-/// Returns the text of a scene.toml with the changes from one edit to another: location, heading,
-/// haze, clouds, the placement of objects and boxes, the corners of walls, and the height of the
-/// marker above the ground. Only changed values differ (scene/toml_text.h).
-/// Lengths are written to 0.1 mm, angles to 0.001°, locations to 1e-7°, scales to six digits; cloud
+/// Returns the text of a scene.toml with the changes from one edit to another. Only changed values
+/// differ (scene/toml_text.h). Saved are location, heading, haze, clouds, and the placement of
+/// objects and boxes. Also the corners of walls, and the height of the marker above the ground.
+///
+/// Lengths are written to 0.1 mm, angles to 0.001°, locations to 1e-7°, scales to six digits. Cloud
 /// cover becomes the nearest word for the sky. The hour, drawing options and locked exposures are
 /// no part of a scene and are not written. `scene`: as read from the text, with its file's name for
 /// messages. Errors: the text is no scene; it has other objects than the scene; a value is out of

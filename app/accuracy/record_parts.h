@@ -19,7 +19,7 @@ struct RecordPart {
   std::vector<accuracy::FrameRecord> records;
   std::vector<LightPicture> pictures;
   std::string skipped;  ///< Why it could not be measured; empty if it could.
-  ErrorKind skipped_kind = ErrorKind::kSystem;  ///< Of `skipped`; not stored.
+  ErrorKind skipped_kind = ErrorKind::kSystem;  ///< Kind of the error in `skipped`; not stored.
   std::string machine;                          ///< That measured it.
 };
 

@@ -15,7 +15,7 @@
 
 namespace pleinair::app {
 
-/// The source of frames with its metadata.
+/// Frames of a camera or a recording for a live session, with their descriptions.
 struct LiveSource {
   std::unique_ptr<devices::FrameSource> frames;
   devices::LiveCamera* camera = nullptr;  ///< Null for a recording.
@@ -28,8 +28,8 @@ struct LiveSource {
 /// and scene; options that do not fit the source.
 Result<LiveSource> OpenLiveSource(const devices::CameraUri& uri, const LiveArguments& arguments);
 
-/// Returns the time of the first frame; nothing: the time of its arrival. Error: an option that is
-/// no time.
+/// Returns the time of the first frame, by the options or the scene; nothing: the time of its
+/// arrival. Error (input): an option that is no time.
 Result<std::optional<UtcTime>> StartOf(const LiveArguments& arguments, const LiveSource& source);
 
 }  // namespace pleinair::app

@@ -12,8 +12,9 @@ namespace pleinair::app {
 Result<exports::CameraTrajectory> ReadTrajectoryFile(
     const scene::TrajectoryDescription& description);
 
-/// Reads a trajectory and the places that align it. Errors: those of ReadTrajectoryFile() and
-/// ParsePlacePairs(), COLMAP images without numbers.
+/// Reads a trajectory and the places that align it. Lengths are scaled and cameras are turned as
+/// the description states. Errors: those of ReadTrajectoryFile() and ParsePlacePairs(), COLMAP
+/// images without numbers.
 Result<session::TrajectoryRequest> ReadGivenTrajectory(
     const scene::TrajectoryDescription& description);
 

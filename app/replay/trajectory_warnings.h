@@ -8,8 +8,8 @@
 
 namespace pleinair::app {
 
-/// Sentences on a given trajectory for the report: what the poses rest on, and the offset of its
-/// clock. Also where it disagrees with the marker, and frames that it does not cover.
+/// Returns sentences on a given trajectory for the report: what the poses rest on, and the offset
+/// of its clock. Also where it disagrees with the marker, and frames that it does not cover.
 std::vector<std::string> TrajectoryWarnings(const session::TrajectorySummary& summary);
 
 }  // namespace pleinair::app

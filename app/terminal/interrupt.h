@@ -6,8 +6,8 @@
 
 namespace pleinair::app {
 
-/// While an object exists, Ctrl-C (SIGINT, SIGTERM) or a closed terminal (SIGHUP) only sets a flag,
-/// so that the work can stop between two frames and clean up. The third or a later signal ends the
+/// While an object exists, Ctrl-C (SIGINT, SIGTERM) or a closed terminal (SIGHUP) only sets a flag.
+/// The work can thus stop between two frames and clean up. The third or a later signal ends the
 /// program, if two seconds have passed since the first.
 class InterruptGuard {
  public:

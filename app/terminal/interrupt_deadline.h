@@ -8,15 +8,15 @@
 
 namespace pleinair::app {
 
-/// While an object exists, an interrupt ends the program within a second, also during a long step
-/// that does not look for one: building a hierarchy of a million triangles, drawing a frame. Work
-/// that returns sooner ends as usual. Needs an InterruptGuard.
+/// Ends the program within a second of an interrupt, while an object exists. This also holds during
+/// a long step that does not check for interrupts: drawing a frame, building a hierarchy of a
+/// million triangles. Work that returns sooner ends as usual. Needs an InterruptGuard.
 class InterruptDeadline {
  public:
-  /// `work`: its name in the message. `clean_up` removes what is unfinished; it runs on a thread of
-  /// its own while the work goes on, and the program ends after it with exit code 1.
+  /// `work`: name of the work in the message. `clean_up` removes unfinished outputs. It runs on a
+  /// thread of its own while the work goes on. After it, the program ends with exit code 1.
   InterruptDeadline(std::string work, std::function<void()> clean_up);
-  /// The work has ended, or enters a step that must not be cut.
+  /// Stops watching: the work has ended, or enters a step that must not be interrupted.
   ~InterruptDeadline();
   InterruptDeadline(const InterruptDeadline&) = delete;
   InterruptDeadline& operator=(const InterruptDeadline&) = delete;

@@ -9,25 +9,26 @@
 
 namespace pleinair::app {
 
-/// What the mouse holds of the described surfaces of a scene.
+/// The described surface of a scene that the mouse holds, or a corner of it.
 struct SurfaceGrip {
   int phantom = 0;            ///< Index among the scene's phantoms.
-  std::optional<int> corner;  ///< Of a wall; nothing: the surface itself.
-  Vec3 hold;                  ///< The point that was grabbed, marker coordinates.
+  std::optional<int> corner;  ///< Index of a wall's corner; nothing: the whole surface.
+  Vec3 hold;                  ///< The point that was grabbed, marker coordinates, metres.
 };
 
-/// Polygons of a described surface in marker coordinates; none for a model file.
+/// Polygons of a described surface in marker coordinates, metres; none for a model file.
 std::vector<std::vector<Vec3>> PlacedPolygons(const scene::ModelReference& phantom);
 
-/// Returns the surface that a viewing ray hits first, or the corner of a wall within
-/// `corner_radius` of the ray (radians), which comes first. `scene`: with the edit.
+/// Returns what a viewing ray picks: a corner of a wall within `corner_radius` (radians) of the
+/// ray, otherwise the first surface that the ray hits. Nothing: neither. `scene`: with the edit.
 std::optional<SurfaceGrip> PickSurface(const scene::SceneDescription& scene, const Sight& sight,
                                        double corner_radius);
 
-/// Moves a surface from one viewing ray to the next: a box over level ground, or vertically if
-/// `upright`; a wall along its normal, or one of its corners within its plane; ground vertically.
-/// `start`: as it was when it was grabbed. Nothing if the surface cannot be so: a wall with a dent,
-/// ground above a marker's centre, or a ray that does not reach it.
+/// Moves a surface from one viewing ray to another. A box moves over level ground, or vertically if
+/// `upright`. A wall moves along its normal, a corner of it within its plane. Ground moves
+/// vertically. `start`: the place when it was grabbed. Nothing if the new place is not allowed: a
+/// wall with a dent, ground above the marker's centre or over 1 km below it. Nothing also for a ray
+/// that does not reach the surface.
 std::optional<session::SurfacePlace> DraggedSurface(const scene::SceneDescription& scene,
                                                     const session::SurfacePlace& start,
                                                     const SurfaceGrip& grip, const Sight& from,

@@ -9,9 +9,10 @@
 
 namespace pleinair::compositor {
 
-/// Directions about a normal with density cosine/π: the points of ShiftedHammersley() on the unit
-/// disc, lifted to the hemisphere. They come in an order in which neighbours are close to each
-/// other, as RayPacket wants them.
+/// Directions of the final gather about a normal, in an order that suits RayPacket: neighbours are
+/// close to each other. Their density is cosine/π. They are the points of ShiftedHammersley() on
+/// the unit disc, lifted to the hemisphere (Malley's method; Pharr, Jakob & Humphreys 2016,
+/// "Physically Based Rendering", 13.6.3).
 class CosineSpread {
  public:
   explicit CosineSpread(std::uint32_t count);
@@ -26,13 +27,14 @@ class CosineSpread {
   };
   static Shift ShiftOf(std::uint32_t seed);
 
-  /// Unit vector; equals CosineDirection() of ShiftedHammersley() up to rounding.
+  /// Unit vector in the frame of reference of `frame`; equals CosineDirection() of
+  /// ShiftedHammersley() up to rounding.
   Vec3 Direction(const TangentFrame& frame, std::uint32_t place, const Shift& shift) const;
 
  private:
   struct Point {
     std::uint32_t ray = 0;
-    double u = 0.0, cosine = 1.0, sine = 0.0;  // Of the angle about the normal.
+    double u = 0.0, cosine = 1.0, sine = 0.0;  // Cosine and sine of the angle about the normal.
   };
   std::vector<Point> points_;
 };

@@ -17,10 +17,10 @@ namespace {
 using Hit = FinalGather::Hit;
 using PatchValues = std::vector<std::array<float, 3>>;
 
-/// Adds to `last` of the virtual objects the reflections that were not followed: a geometric series
-/// with the scene's mean ratio of the last two increments. The ratio of a single patch would be no
-/// estimate: the patch may see surfaces that see sunlit ones, but no sunlit one. `first` and
-/// `second` have two reflections and one less than `last`.
+/// Adds to `last` of the virtual objects the reflections that were not followed. They form a
+/// geometric series with the scene's mean ratio of the last two increments. The ratio of a single
+/// patch would be no estimate: the patch may see surfaces that see sunlit ones, but no sunlit one.
+/// `first` and `second` have two reflections and one less than `last`.
 void Extrapolate(const std::vector<std::uint8_t>& is_phantom, const PatchValues& first,
                  const PatchValues& second, PatchValues* last) {
   // Reached where surfaces are white and see nothing else.

@@ -17,9 +17,11 @@ struct PatchLight {
   std::array<std::vector<std::array<float, 3>>, 2> reflected;
 };
 
-/// Follows `bounces` reflections of the gathered light (docs/method/light.md, Eqs. (1) and (3)).
-/// Patches inside a body, such as the ground under a wall, take their neighbours' values. Otherwise
-/// they would darken these neighbours. `to_sun`: unit, marker coordinates. The result does not
+/// Computes the irradiance on every patch by `bounces` radiosity iterations of the gathered light
+/// (docs/method/light.md, Eqs. (1) and (3)). From two iterations on, the remaining reflections on
+/// virtual objects are extrapolated. Buried patches, such as the ground under a wall, take their
+/// neighbours' values. Otherwise they would darken these neighbours. `sun_irradiance`: on a plane
+/// that faces the sun, lux, linear Rec.709. `to_sun`: unit, marker coordinates. The result does not
 /// depend on the number of threads.
 PatchLight SolveRadiosity(const PatchScene& scene, const FinalGather& gathered,
                           const std::array<float, 3>& sun_irradiance, Vec3 to_sun, int bounces,

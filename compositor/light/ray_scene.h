@@ -33,7 +33,7 @@ struct RayHit {
 enum class RayTargets { kEverything, kPhantoms };
 
 /// Up to eight rays that are followed at once. This is fastest where they are close to each other.
-/// One bit per ray says which of them are followed.
+/// One bit per ray states which of them are traced.
 struct RayPacket {
   static constexpr std::size_t kSize = 8;
   static constexpr unsigned kAll = (1U << kSize) - 1U;

@@ -15,7 +15,7 @@ namespace {
 constexpr int kNoIndex = -1;
 
 Result<void> CheckGltfNode(const tinygltf::Node& node, const std::string& where) {
-  constexpr double kMinLength = 1e-6;  // Of a quaternion, which should have length 1.
+  constexpr double kMinLength = 1e-6;  // Length of a quaternion, which should be 1.
   for (const int index : {node.mesh, node.skin}) {
     if (index < kNoIndex) return GltfError(where, "refers to a mesh or skin below zero");
   }

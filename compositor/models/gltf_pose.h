@@ -26,9 +26,10 @@ struct ModelPose {
 Result<Model> LoadModel(const std::filesystem::path& file, const ModelOptions& options,
                         const ModelPose& pose);
 
-/// Checks what tinygltf passes over: the version (2.x, minVersion 2.0), the default scene, indices
-/// of nodes and primitives below zero, the number of values of matrices, rotations, scales and
-/// translations, and rotations of length zero. `where` names the file.
+/// Checks values that tinygltf does not check: the version (2.x, minVersion 2.0), the default
+/// scene, and indices of nodes and primitives below zero. Also the number of values of matrices,
+/// rotations, scales and translations, and rotations of length zero. `where` names the file in the
+/// error.
 Result<void> CheckGltfValues(const tinygltf::Model& gltf, const std::string& where);
 
 /// The animations of a file, with their durations.

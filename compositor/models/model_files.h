@@ -14,9 +14,9 @@ Result<std::string> ReadWholeFile(const std::filesystem::path& file);
 /// downloaded model could otherwise read any file of the user.
 void AllowFilesOutsideModels(bool allowed);
 
-/// Error (input): a file that a model names lies outside the model's folder, also by "..", by
-/// percent-encoding or behind a symbolic link; or its name holds a NUL. Looks at no file outside.
-/// `folder`: empty for the working folder.
+/// Checks that a model may read a file that it names. `folder`: that of the model; empty: the
+/// working folder. Errors (input): the file lies outside the folder, also by "..", by
+/// percent-encoding or behind a symbolic link. The name holds a NUL. Does not open the file.
 Result<void> CheckBelongsToModel(const std::filesystem::path& file,
                                  const std::filesystem::path& folder);
 

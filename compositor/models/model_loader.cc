@@ -32,7 +32,7 @@ tl::unexpected<Error> TooLarge(const std::filesystem::path& file) {
 
 /// The name of a format that is not read, by its content; empty: none that is known.
 std::string OtherFormat(std::string_view content) {
-  constexpr std::size_t kHead = 84, kTriangle = 50;  // Of binary STL.
+  constexpr std::size_t kHead = 84, kTriangle = 50;  // Bytes in binary STL.
   struct Start {
     std::string_view bytes;
     const char* name;

@@ -25,8 +25,9 @@ constexpr double kPenumbraFrom = 0.02, kPenumbraTo = 0.98, kMinTransmittance = 0
 // Maximum width of the shortest half, logarithmic: twice the interquartile range of paving. Samples
 // count within this many half-widths of its middle, and within the pattern of a material.
 constexpr double kMaxHalf = 0.6, kHalfWidths = 3.0, kMinReach = 0.2;
-// Relative errors of the exposure scale, of the light on a plane like the marker's, and on another
-// one, whose part of the sky is wrong by 20 % (light_posterior.h).
+// Relative errors of the exposure scale, of the light on a plane like the marker's, and of the
+// light on another plane. The part of the sky that the other plane sees is wrong by 20 %
+// (light_posterior.h).
 constexpr double kExposureError = 0.05, kLightError = 0.10, kTiltedLightError = 0.20;
 // Cosine to the marker's normal from which a surface lies like the marker: within 14 degrees.
 constexpr double kAsMarker = 0.97;

@@ -14,9 +14,9 @@
 
 namespace pleinair::devices {
 
-/// Position of a frame's record in the file.
+/// A frame's record in a frames.pack.
 struct FramePackPlace {
-  std::int64_t at = 0;
+  std::int64_t at = 0;  ///< Offset of its first byte in the file.
   FrameRecordHead head;
   std::int64_t timestamp_ns = 0;
 
@@ -26,20 +26,21 @@ struct FramePackPlace {
   }
 };
 
-/// The whole frames of a file, and the bytes between them.
+/// The whole frames of a frames.pack, in order. A frame is whole if its checksum holds.
 struct FramePackScan {
   std::vector<FramePackPlace> places;
   std::int64_t file_bytes = 0;
 
+  /// Bytes that belong to no whole frame, without the file's start.
   std::int64_t LostBytes() const;
   /// What is lost, as sentences: where in the file, and between which times.
   std::vector<std::string> Damage(const std::filesystem::path& file) const;
 };
 
-/// Reads the whole file. A record that is cut or whose checksum fails is passed over: the search
-/// for the next whole one begins behind its first byte, because its lengths may be wrong. The
-/// search reads at most four times the file's size, so that made-up records cannot prolong it.
-/// Errors (input): cannot be read; no whole frame.
+/// Finds the whole frames of a frames.pack, also of a cut or damaged one. A damaged record is
+/// skipped. Its lengths may be wrong, so the search for the next whole one begins behind its first
+/// byte. Failed searches read at most four times the file's size in all, so that forged records
+/// cannot prolong them. Errors (input): the file cannot be read; it has no whole frame.
 Result<FramePackScan> ScanFramePack(const std::filesystem::path& file);
 
 /// Reads a record. Nullopt: its bytes are not there, its checksum fails or its metadata are

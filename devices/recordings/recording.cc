@@ -43,8 +43,8 @@ struct Description {
   std::string bytes;
 };
 
-/// True if a folder has an entry of a name, even a folder or a link to nothing: those are errors,
-/// and do not let another file count.
+/// True if a path exists, even as a folder or as a link to nothing. Reading these is an error; no
+/// other file takes their place.
 bool IsNamed(const fs::path& path) {
   std::error_code error;
   return fs::exists(fs::symlink_status(path, error));

@@ -64,7 +64,7 @@ struct Recording {
 ///   calibration's.
 /// - An MP4, MOV or AVI file is truncated.
 ///
-/// A live recording's frames are those of its pack that are whole; `damage` says what is lost.
+/// A live recording's frames are those of its pack that are whole; `damage` states what is lost.
 /// Next() reports damage inside a video, and truncation of other containers.
 Result<Recording> OpenRecording(const std::filesystem::path& path,
                                 const RecordingOptions& options = {});

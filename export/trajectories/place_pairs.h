@@ -10,10 +10,10 @@
 
 namespace pleinair::exports {
 
-/// A place in a trajectory's frame of reference and in the marker's.
+/// A place in a trajectory's frame of reference and in the marker's, to align the two.
 struct PlacePair {
-  Point<Reference> in_trajectory;
-  Point<Marker> in_scene;  ///< Metres.
+  Point<Reference> in_trajectory;  ///< In the trajectory's unit of length.
+  Point<Marker> in_scene;          ///< Metres.
 };
 
 /// Parses places that align a trajectory. A line has six numbers: X Y Z in its frame of reference,

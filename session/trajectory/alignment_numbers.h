@@ -39,7 +39,7 @@ struct NormalEquations {
   Seven gradient = Seven::Zero();
 };
 
-/// A known scale stays as it is.
+/// Removes a known scale from the equations: its step is 0.
 inline void Hold(bool is_metric, NormalEquations* equations) {
   if (!is_metric) return;
   equations->matrix.row(kScaleIndex).setZero();

@@ -15,12 +15,12 @@
 
 namespace pleinair::session {
 
-/// Frames by the source of their pose.
+/// Numbers of frames by the source of their pose.
 struct TrajectoryFrames {
   std::int64_t by_trajectory = 0;
-  std::int64_t without_marker = 0;  ///< Of these, frames that do not show the marker.
+  std::int64_t without_marker = 0;  ///< Part of by_trajectory: frames without the marker.
   std::int64_t by_marker = 0;       ///< Outside the trajectory: by the marker's own pose.
-  std::int64_t filled = 0;          ///< By the camera's motion before and after.
+  std::int64_t filled = 0;          ///< In gaps: by the camera's motion on both sides.
   std::int64_t missing = 0;         ///< Without a pose.
 };
 
@@ -39,18 +39,19 @@ struct TrajectorySummary {
   std::optional<Radians> tilt;
 };
 
-/// The camera's trajectory by a given one.
+/// The camera's poses in the marker's frame, from a given trajectory.
 struct FollowedTrajectory {
   std::vector<Observation> observations;  ///< One per frame with a pose.
   TrajectorySummary summary;
 };
 
-/// Composes along a given trajectory: finds the offset of its clock and aligns it with the marker's
-/// frame. Every frame takes its pose from it, with and without marker, so that nothing jumps where
-/// the marker leaves the view. Frames outside the trajectory keep the pose of `marker_path`, and
-/// short gaps are filled (session/path_gaps.h). `track`: the frames that show the reference marker.
-/// Errors: those of AlignByMarker() and AlignByPoints(). The trajectory has a pose for no frame, or
-/// puts the marker farther than half its edge from where it is seen.
+/// Returns the camera's pose of every frame by a given trajectory: estimates the offset of its
+/// clock and aligns it with the marker's frame. A frame that the trajectory covers has its pose
+/// from it, with and without marker, so that nothing jumps where the marker leaves the view. Other
+/// frames keep the pose of `marker_path`, and short gaps are filled (session/path_gaps.h). `track`:
+/// the frames that show the reference marker. Errors: those of AlignByMarker() and AlignByPoints().
+/// The trajectory has a pose for no frame. In the median, it puts the marker farther than half its
+/// edge from where frames show it. The marker is a picture target and no places are given.
 Result<FollowedTrajectory> FollowTrajectory(const CameraModel& camera,
                                             const scene::MarkerDescription& marker,
                                             const std::vector<FrameTime>& times,

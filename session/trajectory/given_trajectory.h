@@ -16,9 +16,10 @@ struct TrajectoryWorld;
 
 /// Pose of the camera in a given trajectory.
 struct GivenPose {
-  std::int64_t timestamp_ns = 0;                         ///< By the trajectory's own clock.
-  std::optional<std::int64_t> frame_index;               ///< Number of the film's frame, if known.
-  Transform<TrajectoryWorld, Camera> world_from_camera;  ///< Camera as in base/frames.h.
+  std::int64_t timestamp_ns = 0;            ///< By the trajectory's own clock.
+  std::optional<std::int64_t> frame_index;  ///< Number of the film's frame, if known.
+  /// Camera as in base/frames.h; lengths in the trajectory's unit.
+  Transform<TrajectoryWorld, Camera> world_from_camera;
 };
 
 /// A camera trajectory that another program has estimated.
@@ -28,13 +29,14 @@ struct GivenTrajectory {
   bool is_metric = false;        ///< The unit of length is the metre.
   std::optional<Vec3> up;        ///< Upward direction, where the format defines one.
   bool by_frame = false;         ///< Poses belong to frames by number, not by time.
-  /// Longest distance of two poses between which a pose is interpolated, seconds.
+  /// Longest time between two poses across which a pose is interpolated, seconds.
   double max_gap_s = 0.2;
 };
 
-/// The pose at a time: between two neighbours, positions are interpolated linearly and rotations
-/// along the shortest arc (Shoemake 1985, "Animating rotation with quaternion curves"). Nothing
-/// more than 1 ms outside the trajectory, and between poses that are farther apart than max_gap_s.
+/// The pose at a time of the trajectory's clock. Between two neighbours, positions are interpolated
+/// linearly and rotations along the shortest arc (Shoemake 1985, "Animating rotation with
+/// quaternion curves"). Nothing more than 1 ms outside the trajectory, and between poses that are
+/// farther apart than max_gap_s.
 std::optional<Transform<TrajectoryWorld, Camera>> PoseAtTime(const GivenTrajectory& trajectory,
                                                              std::int64_t timestamp_ns);
 
@@ -51,11 +53,11 @@ std::optional<Transform<TrajectoryWorld, Camera>> PoseIn(const GivenTrajectory& 
 
 /// A place that is known both in the trajectory's frame of reference and in the marker's.
 struct PointPair {
-  Point<TrajectoryWorld> in_trajectory;
-  Point<Marker> in_scene;  ///< Metres.
+  Point<TrajectoryWorld> in_trajectory;  ///< In the trajectory's unit.
+  Point<Marker> in_scene;                ///< Metres.
 };
 
-/// What is composed along.
+/// A given trajectory, with what matches its clock and aligns it.
 struct TrajectoryRequest {
   GivenTrajectory trajectory;
   /// Time of the recording minus time of the trajectory; nothing: estimated.

@@ -33,7 +33,7 @@ struct TrajectorySimilarity {
 /// of a known scale are 0.
 using SimilarityCovariance = std::array<double, 49>;
 
-/// How a trajectory lies in the marker's frame.
+/// Estimated similarity of a trajectory to the marker's frame, with its quality.
 struct TrajectoryAlignment {
   TrajectorySimilarity marker_from_trajectory;
   SimilarityCovariance covariance{};
@@ -55,22 +55,25 @@ struct TrajectoryView {
 };
 
 /// Aligns a trajectory by the frames that show the marker. Minimises the squared distances of all
-/// corners from their projections, in units of their standard deviations, by Gauss and Newton.
-/// Views far off lose weight by Huber's loss (Huber 1964). `is_metric`: the scale stays 1. The
-/// covariance is the inverse of the normal equations, times chi2_per_dof where that exceeds 1.
-/// Errors: no view; a free scale that the views do not determine within 5 %; no convergence. They
-/// name `file`.
+/// corners from their projections, in units of their standard deviations. Steps are Gauss and
+/// Newton's with the damping of Levenberg 1944 and Marquardt 1963. Views farther than twice the
+/// median distance, at least 2 standard deviations, lose weight (Huber 1964, "Robust estimation of
+/// a location parameter"). Views beyond three times that limit are outliers. `is_metric`: the scale
+/// stays 1. The covariance is the inverse of the normal equations, times chi2_per_dof where that
+/// exceeds 1. Errors, which name `file`: no view; a free scale that the views do not determine
+/// within 5 %; views that no similarity fits.
 Result<TrajectoryAlignment> AlignByMarker(const CameraModel& camera, double marker_size_m,
                                           const std::vector<TrajectoryView>& views, bool is_metric,
                                           const std::string& file);
 
-/// The four corners of the marker by a similarity, against those of a view: root mean square of the
-/// distances, pixels. Infinite behind the camera.
+/// Root mean square distance, pixels, of a view's four corners from those that the similarity
+/// projects. Infinite behind the camera.
 double CornerDistance_px(const CameraModel& camera, double marker_size_m,
                          const TrajectorySimilarity& similarity, const TrajectoryView& view);
 
-/// Standard deviation of the marker's centre as a camera of the trajectory sees it, metres. It
-/// holds the errors of the alignment, not those of the trajectory.
+/// Standard deviation of the marker's centre as a camera of the trajectory sees it, metres: the
+/// root of the summed variances of its three coordinates. It holds the errors of the alignment, not
+/// those of the trajectory.
 double CentreDeviation_m(const TrajectoryAlignment& alignment,
                          const Transform<TrajectoryWorld, Camera>& world_from_camera);
 

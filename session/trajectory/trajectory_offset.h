@@ -11,7 +11,7 @@
 
 namespace pleinair::session {
 
-/// Time of the recording minus time of a trajectory.
+/// Offset of two clocks: time of the recording minus time of a trajectory.
 struct TrajectoryOffset {
   std::int64_t offset_ns = 0;
   /// Standard deviation of an estimated offset, seconds; nothing: given or assumed.
@@ -23,17 +23,19 @@ std::vector<TrajectoryView> TrajectoryViews(const GivenTrajectory& trajectory,
                                             const std::vector<Observation>& track,
                                             std::int64_t offset_ns);
 
-/// The offset without any estimate: 0 if any frame then has a pose. Otherwise that of the camera's
-/// own clock, if any frame then has one. Else the clocks differ, and the trajectory begins with the
-/// recording. `clock_start_ns`: time of the recording's start by the camera's clock, if known.
+/// The offset, nanoseconds, where none is estimated: 0 if any frame then has a pose. Otherwise that
+/// of the camera's own clock, if any frame then has one. Else the clocks differ, and the trajectory
+/// begins with the recording. `clock_start_ns`: time of the recording's start by the camera's
+/// clock, if known.
 std::int64_t AssumedOffset(const GivenTrajectory& trajectory, const std::vector<FrameTime>& frames,
                            std::optional<std::int64_t> clock_start_ns);
 
-/// Estimates the offset: of those within 2 s of `assumed_ns`, it is that with which the
-/// trajectory fits the marker's corners best. The deviation is that of the parabola through the
-/// minimum of chi-square, in units of chi-square over its degrees of freedom. Returns the assumed
-/// offset if the marker's frames do not determine one. These are fewer than 8 frames or less than
-/// 0.5 s, a deviation above 20 ms, and a minimum at the end of the range.
+/// Estimates the offset, within 2 s of `assumed_ns`, with which the trajectory fits the marker's
+/// corners best. The cost is the mean of log(1 + d²) over at most 24 views, with the distance d in
+/// standard deviations. The deviation is sqrt(2 c / χ²''): there χ² exceeds its minimum by c, which
+/// is χ² over its degrees of freedom, at least 1. Returns the assumed offset if the frames do not
+/// determine one: fewer than 8 frames or a span below 0.5 s. Also for a deviation above 20 ms, and
+/// for a minimum at the end of the range.
 TrajectoryOffset EstimateOffset(const CameraModel& camera, double marker_size_m,
                                 const GivenTrajectory& trajectory,
                                 const std::vector<Observation>& track, std::int64_t assumed_ns);

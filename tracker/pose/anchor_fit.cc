@@ -204,7 +204,7 @@ std::optional<AnchoredPose> FitAnchoredPose(const CameraModel& camera,
     ceres::Solve(options, &problem, &summary);
     if (!summary.IsSolutionUsable() || !(summary.final_cost < least)) continue;
     least = summary.final_cost;
-    // Of all corners, also of the outliers. Costs are half the squares.
+    // Distances of all corners, outliers included. Costs are half the squares.
     ceres::Problem::EvaluateOptions squares;
     squares.apply_loss_function = false;
     double cost = 0.0;

@@ -15,6 +15,7 @@ namespace pleinair::tracker {
 constexpr int kPoseNumbers = 6;
 using PoseNumbers = std::array<double, kPoseNumbers>;
 
+/// Parameters of a transform.
 template <typename To, typename From>
 PoseNumbers NumbersOf(const Transform<To, From>& pose) {
   PoseNumbers numbers{};
@@ -26,6 +27,7 @@ PoseNumbers NumbersOf(const Transform<To, From>& pose) {
   return numbers;
 }
 
+/// The transform with these parameters.
 template <typename To>
 Transform<To, Marker> PoseOf(const PoseNumbers& numbers) {
   Transform<To, Marker> pose;

@@ -52,7 +52,7 @@ struct ReplayedScene {
 /// What the camera's poses rest on, besides the marker.
 struct ReplayedPlacing {
   session::AnchorSummary anchors;
-  std::optional<session::TrajectorySummary> trajectory;  ///< Of a given one.
+  std::optional<session::TrajectorySummary> trajectory;  ///< Nothing: no trajectory was given.
 };
 
 /// The light of the frames.

@@ -15,7 +15,8 @@
 
 namespace pleinair::session {
 
-/// A made walk past a marker, and what another program says of the camera's trajectory.
+/// Made test data: a walk past a marker, and the camera's trajectory as another program estimates
+/// it.
 class MadeTrajectory {
  public:
   static constexpr double kMarkerSize_m = 0.3, kFrameRate_hz = 30.0;
@@ -32,13 +33,14 @@ class MadeTrajectory {
   /// The marker in some frames, its corners with noise.
   std::vector<Observation> Seen(const std::vector<int>& frames, double noise_px = 0.03);
 
-  /// The true trajectory in another frame of reference and unit, by another clock.
+  /// The true trajectory in another frame of reference, by another clock. `unit_m`: metres of one
+  /// of its units.
   GivenTrajectory Given(double unit_m, std::int64_t clock_ns = 0) const;
 
-  /// Places in both frames of reference; `noise_m`: of the measured ones.
+  /// Places in both frames of reference. `unit_m`: metres of one unit of the trajectory.
   std::vector<PointPair> Places(const std::vector<Vec3>& in_scene, double unit_m);
 
-  /// How far the marker's centre and axes are from their true places at most, as the camera sees
+  /// Largest distance of the marker's centre and axes from their true places, as the camera sees
   /// them.
   struct Distance {
     double centre_m = 0.0, turn_rad = 0.0;
