@@ -212,7 +212,7 @@ Result<ComposedFrame> Pipeline::Advance(ImageView<const std::uint8_t> rgb,
   MeterLightOn(pose->marker);
   const Observation& seen = pose->observation;
   PLEINAIR_RETURN_IF_ERROR(renderer_->Advance(rgb, seen.camera_from_marker, time, FollowedIn(seen),
-                                              seen.source == PoseSource::kMarker));
+                                              ShowsReferenceMarker(seen)));
   if (!renderer_->DrawsObjects()) return advanced;
   advanced.light = renderer_->light();
   advanced.times = renderer_->times();

@@ -100,6 +100,7 @@ Result<OutputFolder> OutputFolder::Create(const fs::path& path, bool is_resumabl
     fs::create_directory(staging / kResumeFolder, error);
     if (error) return tl::make_unexpected(WriteError(staging, error.value()));
     RemovePartialFiles(staging);
+    BringFramesBack(staging);
   }
   folder.staging_ = staging;
   return folder;
@@ -166,7 +167,13 @@ Result<void> OutputFolder::Commit() {
   const auto undo = [&](const fs::path& culprit) {
     const int error_number = error.value();
     std::error_code ignored;
-    for (auto it = moved.rbegin(); it != moved.rend(); ++it) fs::remove(*it, ignored);
+    for (auto it = moved.rbegin(); it != moved.rend(); ++it) {
+      if (is_resumable_ && !fs::is_directory(*it, ignored)) {
+        fs::rename(*it, staging_ / fs::relative(*it, path_, ignored), ignored);
+      } else {
+        fs::remove(*it, ignored);
+      }
+    }
     return tl::make_unexpected(WriteError(culprit, error_number));
   };
   for (const fs::path& folder : folders) {

@@ -19,6 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kFramesFolder = "frames";
 constexpr std::size_t kMaxIdentityBytes = 1 << 20;
 constexpr const char* kRemedy =
     "repeat the first command, remove this folder to begin anew, or name another one with -o";
@@ -81,6 +82,25 @@ std::string DifferenceBetween(const std::vector<std::string>& stored,
 
 fs::path IdentityFile(const fs::path& staging) { return staging / kResumeFolder / "identity"; }
 
+/// True if a file, or anything in a folder but in `results`, has changed after `time`.
+bool HasNewer(const fs::path& input, fs::file_time_type time, const fs::path& results) {
+  std::error_code error;
+  if (!fs::is_directory(input, error)) {
+    const fs::file_time_type changed = fs::last_write_time(input, error);
+    return !error && changed > time;
+  }
+  for (fs::recursive_directory_iterator it(input, error), end; !error && it != end;
+       it.increment(error)) {
+    std::error_code ignored;
+    if (fs::equivalent(it->path(), results, ignored)) {
+      it.disable_recursion_pending();
+    } else if (it->is_regular_file(ignored) && it->last_write_time(ignored) > time) {
+      return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 Result<void> ClaimUnfinished(const fs::path& staging, const std::string& command,
@@ -120,8 +140,29 @@ Result<void> DropFramesOfOtherDetections(const fs::path& staging) {
   return WriteFileAtomically(file, hash);
 }
 
-bool IsFinishedReplay(const fs::path& folder, const std::string& command) {
+Result<void> SetFramesAside(const fs::path& staging) {
   std::error_code error;
+  fs::rename(staging / kFramesFolder, staging / kResumeFolder / kFramesFolder, error);
+  if (error && error != std::errc::no_such_file_or_directory) {
+    return tl::make_unexpected(WriteError(staging / kFramesFolder, error.value()));
+  }
+  return {};
+}
+
+void BringFramesBack(const fs::path& staging) {
+  std::error_code error;  // Without frames there, they are composed again.
+  fs::rename(staging / kResumeFolder / kFramesFolder, staging / kFramesFolder, error);
+}
+
+bool IsFinishedReplay(const fs::path& folder, const std::string& command,
+                      const std::vector<fs::path>& inputs) {
+  std::error_code error;
+  const fs::file_time_type finished = fs::last_write_time(folder / "report.json", error);
+  if (error || std::any_of(inputs.begin(), inputs.end(), [&](const fs::path& input) {
+        return HasNewer(input, finished, folder);
+      })) {
+    return false;
+  }
   if (fs::exists(folder / kUnfinishedFolder / kResumeFolder, error)) return false;
   std::ifstream in(folder / "report.json", std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(in), {}};

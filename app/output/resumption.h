@@ -26,7 +26,15 @@ bool IsClaimed(const std::filesystem::path& staging);
 /// its detections.jsonl, and stores the hash of these. Errors: the file cannot be read, WriteError.
 Result<void> DropFramesOfOtherDetections(const std::filesystem::path& staging);
 
-/// True if a folder has the finished results of this command and version, and nothing unfinished.
-bool IsFinishedReplay(const std::filesystem::path& folder, const std::string& command);
+/// Moves the frames to where OutputFolder::Commit() leaves them. Error: WriteError.
+Result<void> SetFramesAside(const std::filesystem::path& staging);
+/// Undoes SetFramesAside(), if it was called and the results were not moved to their place.
+void BringFramesBack(const std::filesystem::path& staging);
+
+/// True if a folder has the finished results of this command and version, nothing unfinished, and
+/// its report.json is newer than all inputs. `inputs`: files, and folders with all that they hold,
+/// except the results themselves.
+bool IsFinishedReplay(const std::filesystem::path& folder, const std::string& command,
+                      const std::vector<std::filesystem::path>& inputs);
 
 }  // namespace pleinair::app

@@ -137,16 +137,6 @@ std::vector<fs::path> InputsOf(const devices::Recording& recording, const Replay
   return files;
 }
 
-/// Keeps the frames out of the results where they served the resumption alone.
-Result<void> RemoveUnrequestedFrames(const ReplayState& state) {
-  if (!state.write.is_resumable || state.write.frames) return {};
-  const fs::path frames = state.folder.staging() / "frames";
-  std::error_code error;
-  fs::remove_all(frames, error);
-  if (error) return tl::make_unexpected(WriteError(frames, error.value()));
-  return {};
-}
-
 /// Collects the warnings known before compositing.
 void Warn(ReplayState& state) {
   std::vector<std::string>& warnings = state.report.warnings;
@@ -220,7 +210,10 @@ Result<void> Run(ReplayState& state) {
   PLEINAIR_RETURN_IF_ERROR(DrawDay(state));
   PLEINAIR_RETURN_IF_ERROR(WriteReports(state));
   PLEINAIR_RETURN_IF_ERROR(CheckInterrupt(name));
-  return RemoveUnrequestedFrames(state);
+  // They served the resumption alone, and do so again if the results cannot be moved.
+  if (state.write.is_resumable && !state.write.frames)
+    return SetFramesAside(state.folder.staging());
+  return {};
 }
 
 /// The output must not replace the recording.
@@ -246,8 +239,10 @@ Result<ReplayReport> Replay(const ReplayOptions& options) {
   const InterruptGuard guard;
   PLEINAIR_ASSIGN_OR_RETURN(OutputFolder folder,
                             OutputFolder::Create(options.output, options.write.is_resumable));
-  std::optional<InterruptDeadline> deadline(std::in_place, options.recording.string(),
-                                            folder.CleanUp());
+  constexpr const char* kGoOn = "repeat the command to go on";
+  std::optional<InterruptDeadline> deadline(
+      std::in_place, options.recording.string(), folder.CleanUp(),
+      options.write.is_resumable ? kGoOn : "nothing was written");
   PLEINAIR_ASSIGN_OR_RETURN(const auto calibration, CalibrateFromFilm(options, folder));
   ReplayOptions calibrated = options;
   if (calibration) calibrated.calibration = calibration->file;
@@ -262,7 +257,7 @@ Result<ReplayReport> Replay(const ReplayOptions& options) {
   if (!done) {
     Error failure = state.folder.InTermsOfTarget(done.error());
     if (state.write.is_resumable && InterruptGuard::Interrupted()) {
-      failure.remedy = "repeat the command to go on";
+      failure.remedy = kGoOn;
     }
     return tl::make_unexpected(std::move(failure));
   }

@@ -19,8 +19,12 @@ constexpr int kInterruptedExit = 1;  // kExitSystem
 
 }  // namespace
 
-InterruptDeadline::InterruptDeadline(std::string work, std::function<void()> clean_up)
-    : work_(std::move(work)), clean_up_(std::move(clean_up)), watcher_([this] { Watch(); }) {}
+InterruptDeadline::InterruptDeadline(std::string work, std::function<void()> clean_up,
+                                     std::string outcome)
+    : work_(std::move(work)),
+      outcome_(std::move(outcome)),
+      clean_up_(std::move(clean_up)),
+      watcher_([this] { Watch(); }) {}
 
 InterruptDeadline::~InterruptDeadline() {
   {
@@ -39,7 +43,7 @@ void InterruptDeadline::Watch() {
     if (!interrupted || WatchClock::now() - *interrupted < kLimit) continue;
     // The lock is kept: from here on, the work cannot end before the program.
     clean_up_();
-    std::cerr << "pleinair: " << work_ << ": interrupted; nothing was written" << std::endl;
+    std::cerr << "pleinair: " << work_ << ": interrupted; " << outcome_ << std::endl;
     _exit(kInterruptedExit);
   }
 }

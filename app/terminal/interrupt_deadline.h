@@ -15,7 +15,9 @@ class InterruptDeadline {
  public:
   /// `work`: name of the work in the message. `clean_up` removes unfinished outputs. It runs on a
   /// thread of its own while the work goes on. After it, the program ends with exit code 1.
-  InterruptDeadline(std::string work, std::function<void()> clean_up);
+  /// `outcome` ends the message.
+  InterruptDeadline(std::string work, std::function<void()> clean_up,
+                    std::string outcome = "nothing was written");
   /// Stops watching: the work has ended, or enters a step that must not be interrupted.
   ~InterruptDeadline();
   InterruptDeadline(const InterruptDeadline&) = delete;
@@ -24,7 +26,7 @@ class InterruptDeadline {
  private:
   void Watch();
 
-  std::string work_;
+  std::string work_, outcome_;
   std::function<void()> clean_up_;
   std::mutex mutex_;
   std::condition_variable changed_;

@@ -1,17 +1,21 @@
 #include <gmock/gmock.h>
 
+#include <chrono>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include "tests/e2e/refusal.h"
 #include "tests/e2e/run_program.h"
+#include "tests/source_tree.h"
 
 namespace pleinair::e2e {
 namespace {
 
 namespace fs = std::filesystem;
+using std::chrono_literals::operator""s;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class Resume : public ::testing::Test {
  protected:
@@ -30,8 +34,10 @@ class Resume : public ::testing::Test {
   fs::path Unfinished() const { return folder_ / "out/unfinished"; }
 
   std::vector<std::string> Command(const std::string& out) const {
-    return {"replay",   folder_ / "site", "-o",     folder_ / out,
-            "--frames", "--light",        "stated", "--resume"};
+    std::vector<std::string> command{"replay",   folder_ / "site", "-o",     folder_ / out,
+                                     "--frames", "--light",        "stated", "--resume"};
+    command.insert(command.end(), along_.begin(), along_.end());
+    return command;
   }
   RunResult Replay(const std::string& out, const std::vector<std::string>& more = {}) const {
     std::vector<std::string> arguments = Command(out);
@@ -70,6 +76,7 @@ class Resume : public ::testing::Test {
   }
 
   TemporaryFolder folder_;
+  std::vector<std::string> along_;  // Options of a given trajectory.
 };
 
 TEST_F(Resume, GivesTheBytesOfOneRunAndTakesNoOther) {
@@ -98,6 +105,20 @@ TEST_F(Resume, GivesTheBytesOfOneRunAndTakesNoOther) {
   const RunResult again = Replay("out");
   EXPECT_EQ(again.exit_code, 0);
   EXPECT_THAT(again.err, HasSubstr("is finished already"));
+  // A newer scene is composed anew.
+  fs::last_write_time(Scene(), fs::last_write_time(folder_ / "out/report.json") + 5s);
+  const RunResult anew = Replay("out");
+  EXPECT_EQ(anew.exit_code, 0) << anew.err;
+  EXPECT_THAT(anew.err, Not(HasSubstr("is finished already")));
+}
+
+TEST_F(Resume, GivesTheBytesOfOneRunAlongATrajectory) {
+  along_ = {"--trajectory", tests::SourceTree() / "recordings/courtyard_midday/truth.tum"};
+  ASSERT_EQ(Replay("whole").exit_code, 0);
+  EndReplay("INT", "0002");
+  const RunResult resumed = Replay("out");
+  ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
+  ExpectTheBytesOfOneRun();
 }
 
 TEST_F(Resume, LeavesWhatOthersWroteAndNothingAfterAnInputError) {
