@@ -61,7 +61,7 @@ struct SceneEdit {
   std::vector<ObjectPlace> objects;
   /// One per phantom. Those with a file stay where they are.
   std::vector<SurfacePlace> phantoms;
-  /// Keeps the exposure scale of the last estimate.
+  /// Keeps the exposure scale of the last frame (ExposureMeter::SetLocked()).
   bool lock_exposure = false;
   bool operator==(const SceneEdit&) const = default;
 };

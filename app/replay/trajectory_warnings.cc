@@ -30,11 +30,13 @@ std::string Rests(const session::TrajectorySummary& summary) {
 
 std::string OffsetSentence(const session::TrajectoryOffset& offset) {
   const double seconds = 1e-9 * static_cast<double>(offset.offset_ns);
+  const std::string offset_text = fmt::format(
+      "The offset between the clocks of recording and trajectory is {:.4f} s, ", seconds);
+  if (offset.is_given) return offset_text + "as given.";
   if (!offset.deviation_s) {
-    return fmt::format(
-        "The offset between the clocks of recording and trajectory is {:.4f} s, given or assumed. "
-        "Too few frames show the marker to estimate it; --trajectory-offset-s states it.",
-        seconds);
+    return offset_text +
+           "assumed: too few frames show the marker to estimate it. --trajectory-offset-s states "
+           "it.";
   }
   return fmt::format(
       "The offset between the clocks of recording and trajectory was estimated: {:.4f} ± {:.4f} s. "

@@ -101,10 +101,10 @@ const Observation* Of(const std::map<std::int64_t, const Observation*>& by_frame
 TrajectoryOffset OffsetOf(const CameraModel& camera, const scene::MarkerDescription& marker,
                           const std::vector<FrameTime>& times,
                           const std::vector<Observation>& track, const TrajectoryRequest& request) {
-  if (request.offset_ns) return {*request.offset_ns, std::nullopt};
+  if (request.offset_ns) return {*request.offset_ns, std::nullopt, true};
   if (request.trajectory.by_frame) return {};
   const std::int64_t assumed_ns = AssumedOffset(request.trajectory, times, request.clock_start_ns);
-  if (marker.target) return {assumed_ns, std::nullopt};
+  if (marker.target) return {assumed_ns, std::nullopt, false};
   return EstimateOffset(camera, marker.size_m, request.trajectory, track, assumed_ns);
 }
 

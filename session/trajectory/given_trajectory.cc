@@ -1,17 +1,16 @@
 #include "session/trajectory/given_trajectory.h"
 
-#include <Eigen/Dense>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
+#include "session/trajectory/alignment_numbers.h"
+
 namespace pleinair::session {
 namespace {
 
-using RowMajor3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
-
 Eigen::Quaterniond EigenQuaternion(const Mat3& rotation) {
-  return Eigen::Quaterniond(Eigen::Matrix3d(Eigen::Map<const RowMajor3>(rotation.m.data())));
+  return Eigen::Quaterniond(EigenOf(rotation));
 }
 
 }  // namespace
@@ -43,13 +42,17 @@ std::optional<Transform<TrajectoryWorld, Camera>> PoseAtTime(const GivenTrajecto
   // As doubles: the difference of two times may exceed 64 bits.
   const double length_ns =
       static_cast<double>(after->timestamp_ns) - static_cast<double>(before.timestamp_ns);
-  if (!(length_ns > 0.0 && length_ns <= trajectory.max_gap_s * kSecond_ns)) return std::nullopt;
+  if (!(length_ns > 0.0 && length_ns <= trajectory.max_gap_s * kSecond_ns)) {
+    if (is_at(before)) return before.world_from_camera;
+    if (is_at(*after)) return after->world_from_camera;
+    return std::nullopt;
+  }
   const double share = static_cast<double>(timestamp_ns - before.timestamp_ns) / length_ns;
   const Transform<TrajectoryWorld, Camera>& a = before.world_from_camera;
   const Transform<TrajectoryWorld, Camera>& b = after->world_from_camera;
   Transform<TrajectoryWorld, Camera> pose;
-  Eigen::Map<RowMajor3>(pose.rotation.m.data()) =
-      EigenQuaternion(a.rotation).slerp(share, EigenQuaternion(b.rotation)).toRotationMatrix();
+  pose.rotation = MatOf(
+      EigenQuaternion(a.rotation).slerp(share, EigenQuaternion(b.rotation)).toRotationMatrix());
   pose.translation_m = a.translation_m * (1.0 - share) + b.translation_m * share;
   return pose;
 }

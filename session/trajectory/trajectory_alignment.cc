@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "base/quantile.h"
+#include "session/marker_tracks.h"
 #include "session/trajectory/alignment_numbers.h"
 
 namespace pleinair::session {
@@ -70,10 +71,6 @@ std::optional<ViewResidual> ResidualOf(const CameraModel& camera, double size_m,
   return residual;
 }
 
-double AngleBetween(const Mat3& a, const Mat3& b) {
-  return Eigen::AngleAxisd(EigenOf(a).transpose() * EigenOf(b)).angle();
-}
-
 /// The similarity of a rotation that fits the positions of the cameras best.
 TrajectorySimilarity WithRotation(const Mat3& rotation, const std::vector<TrajectoryView>& views,
                                   bool is_metric) {
@@ -111,7 +108,7 @@ TrajectorySimilarity StartOf(const std::vector<TrajectoryView>& views, bool is_m
   Mat3 best;
   for (const Mat3& one : rotations) {
     double sum = 0.0;
-    for (const Mat3& other : rotations) sum += AngleBetween(one, other);
+    for (const Mat3& other : rotations) sum += RotationAngle(one, other);
     if (sum >= least) continue;
     least = sum;
     best = one;

@@ -16,6 +16,7 @@ struct TrajectoryOffset {
   std::int64_t offset_ns = 0;
   /// Standard deviation of an estimated offset, seconds; nothing: given or assumed.
   std::optional<double> deviation_s;
+  bool is_given = false;  ///< Stated by the user.
 };
 
 /// The frames that show the marker and have a pose in the trajectory.
