@@ -20,9 +20,11 @@ namespace fs = std::filesystem;
 
 /// Every option of any command that names what is written.
 constexpr std::array<std::string_view, 16> kOutputOptions = {
-    "--coverage",    "--description", "--euroc",      "--kalibr",  "--opencv",
-    "--opencv-json", "--output",      "--path",       "--preview", "--record",
-    "--report",      "--ros",         "--screenshot", "--spectra", "OUT"};
+    "--coverage",    "--description", "--detections", "--euroc",   "--kalibr", "--opencv",
+    "--opencv-json", "--output",      "--path",       "--preview", "--record", "--report",
+    "--ros",         "--screenshot",  "--spectra",    "OUT"};
+/// Folders of files that pleinair names by the time of day.
+constexpr std::string_view kPictureFolder = "--pictures";
 
 bool IsOutput(const CLI::Option& option) {
   return std::any_of(kOutputOptions.begin(), kOutputOptions.end(),
@@ -44,6 +46,7 @@ Result<void> CheckOptionsOf(const CLI::App& command) {
   std::vector<NamedOutput> outputs;
   for (const CLI::Option* option : command.get_options()) {
     if (option->get_items_expected_max() == 0) continue;  // A flag.
+    if (option->check_name(std::string(kPictureFolder))) continue;
     for (const std::string& value : option->results()) {
       if (IsOutput(*option)) {
         outputs.push_back({option->get_name(), value});
