@@ -42,6 +42,11 @@ TEST(OutputRule, TheInputIsNeverReplacedUnderAnyName) {
                   "is the input itself");
     EXPECT_EQ(ReadFile(folder / "in.csv"), table);
   }
+  WriteFile(folder / "camera.json", "mine");
+  ExpectRefused(RunPleinair({"live", "--calibration", folder / "camera.json", "--detections",
+                             folder / "camera.json"}),
+                "is the input itself");
+  EXPECT_EQ(ReadFile(folder / "camera.json"), "mine");
 }
 
 TEST(OutputRule, AFileInAFolderThatIsReadIsNotReplaced) {

@@ -1,5 +1,6 @@
 #include "app/output/output_folder.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -201,6 +202,23 @@ TEST_F(OutputFolderTest, AFilePutInTheWayDuringTheReplayStays) {
   ASSERT_FALSE(committed);
   EXPECT_EQ(committed.error().kind, ErrorKind::kInput);
   EXPECT_EQ(fs::file_size(root_ / "out/composite.mp4"), 4U);
+}
+
+TEST_F(OutputFolderTest, AResumableOneThatCannotBeMovedIsKeptWhole) {
+  WriteReport(R"("light.csv")");
+  auto folder = OutputFolder::Create(root_, true);
+  ASSERT_TRUE(folder);
+  Write(folder->staging() / ".resume/identity");
+  for (const char* file : {"frames/0000.png", "composite.mp4", "light.csv"}) {
+    Write(folder->staging() / file);
+  }
+  Write(root_ / "light.csv/in_the_way");  // Files before it in the alphabet are moved by then.
+  ASSERT_FALSE(folder->Commit());
+  EXPECT_THAT(Files(), ::testing::UnorderedElementsAre(
+                           "light.csv/in_the_way", "unfinished/.resume/identity",
+                           "unfinished/composite.mp4", "unfinished/frames/0000.png",
+                           "unfinished/light.csv"));
+  EXPECT_FALSE(fs::exists(root_ / "frames"));
 }
 
 }  // namespace
