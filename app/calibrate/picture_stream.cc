@@ -42,12 +42,20 @@ class PictureFiles final : public PictureStream {
 
 class Film final : public PictureStream {
  public:
+  /// `damage` grows while the frames are read; each sentence is printed once.
   Film(std::string name, std::unique_ptr<devices::FrameSource> frames,
-       std::optional<double> focal_length_35mm)
-      : name_(std::move(name)), frames_(std::move(frames)), focal_length_35mm_(focal_length_35mm) {}
+       std::optional<double> focal_length_35mm,
+       std::shared_ptr<const std::vector<std::string>> damage)
+      : name_(std::move(name)),
+        frames_(std::move(frames)),
+        focal_length_35mm_(focal_length_35mm),
+        damage_(std::move(damage)) {}
 
   Result<std::optional<NamedPicture>> Next() override {
     PLEINAIR_ASSIGN_OR_RETURN(auto frame, frames_->Next());
+    for (; told_ < damage_->size(); ++told_) {
+      std::cerr << "warning: " << (*damage_)[told_] << '\n';
+    }
     if (!frame) return std::nullopt;
     return NamedPicture{name_ + ", frame " + std::to_string(frame->index), std::move(frame->grey)};
   }
@@ -59,6 +67,8 @@ class Film final : public PictureStream {
   const std::string name_;
   std::unique_ptr<devices::FrameSource> frames_;
   const std::optional<double> focal_length_35mm_;
+  const std::shared_ptr<const std::vector<std::string>> damage_;
+  std::size_t told_ = 0;
 };
 
 class CameraStream final : public PictureStream {
@@ -144,12 +154,12 @@ Result<std::unique_ptr<PictureStream>> OpenCamera(const devices::CameraUri& uri,
 Result<std::unique_ptr<PictureStream>> OpenFilm(const fs::path& file) {
   if (devices::IsFramePack(file)) {
     PLEINAIR_ASSIGN_OR_RETURN(devices::OpenedFramePack pack, devices::OpenFramePack(file, {}));
-    for (const std::string& lost : pack.damage) std::cerr << "warning: " << lost << '\n';
-    return std::make_unique<Film>(file.string(), std::move(pack.frames), std::nullopt);
+    return std::make_unique<Film>(file.string(), std::move(pack.frames), std::nullopt, pack.damage);
   }
   PLEINAIR_ASSIGN_OR_RETURN(devices::OpenedVideo video, devices::OpenVideo(file, {}));
   return std::make_unique<Film>(file.string(), std::move(video.frames),
-                                video.facts.tags.focal_length_35mm);
+                                video.facts.tags.focal_length_35mm,
+                                std::make_shared<const std::vector<std::string>>());
 }
 
 /// Opens one source: images, which are added to `files`, or a video.

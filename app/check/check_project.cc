@@ -74,7 +74,6 @@ Result<SiteFacts> LookAtSite(const CheckRequest& request) {
   options.light.film_response = devices::ResponseOf(recording.curve);
   PLEINAIR_ASSIGN_OR_RETURN(const auto pipeline, session::Pipeline::Create(camera, scene, options));
   SiteFacts facts;
-  facts.damage = recording.damage;
   facts.has_objects = !scene.objects.empty();
   facts.lens_guess = LensGuess(request);
   facts.sun_elevation_deg =
@@ -93,7 +92,9 @@ Result<SiteFacts> LookAtSite(const CheckRequest& request) {
                                         response));
     return {};
   };
+  const auto damage = recording.damage;
   PLEINAIR_RETURN_IF_ERROR(session::TrackRecording(*pipeline, std::move(recording), take, monitor));
+  facts.damage = *damage;
   const auto reference = pipeline->tracks().ReferenceMarker();
   if (!reference) return facts;
   facts.marker = reference->ToString();

@@ -83,7 +83,6 @@ Result<void> RunResponse(const ResponseArguments& arguments) {
     return devices::OpenRecording(arguments.recording, {arguments.calibration, arguments.scene});
   };
   PLEINAIR_ASSIGN_OR_RETURN(devices::Recording recording, open());
-  for (const std::string& lost : recording.damage) std::cerr << "warning: " << lost << '\n';
   if (!recording.scene) {
     return InputError(name, "has no scene",
                       "write one (docs/guide/reference/recordings.md) and give it with --scene");
@@ -99,11 +98,13 @@ Result<void> RunResponse(const ResponseArguments& arguments) {
   options.light.film_response = devices::ResponseOf(recording.curve);
   PLEINAIR_ASSIGN_OR_RETURN(const auto pipeline,
                             session::Pipeline::Create(recording.camera, scene, options));
+  const auto damage = recording.damage;
   {
     PassBar bar("Finding markers", name);
     PLEINAIR_RETURN_IF_ERROR(
         session::TrackRecording(*pipeline, std::move(recording), {}, {bar.Progress(), nullptr}));
   }
+  for (const std::string& lost : *damage) std::cerr << "warning: " << lost << '\n';
   PLEINAIR_RETURN_IF_ERROR(session::EstimateResponse(*pipeline));
   if (!pipeline->renderer().light().response.IsShown()) {
     return InputError(name, "does not show the camera's response",

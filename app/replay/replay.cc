@@ -93,7 +93,6 @@ Result<PreparedReplay> Prepare(ReplayState& state) {
           camera, *recording.scene,
           {.composer = options.composer, .light = std::move(light), .image_size = options.size}));
   Describe(recording, state, &state.report);
-  for (const std::string& lost : recording.damage) state.report.warnings.push_back(lost);
   if (!recording.camera_note.empty()) state.report.warnings.push_back(recording.camera_note);
   return PreparedReplay{std::move(recording), std::move(trajectory)};
 }
@@ -195,7 +194,9 @@ Result<void> Run(ReplayState& state) {
     PLEINAIR_RETURN_IF_ERROR(ClaimUnfinished(state.folder.staging(), state.options.command,
                                              InputsOf(prepared.recording, state)));
   }
+  const auto damage = prepared.recording.damage;
   PLEINAIR_RETURN_IF_ERROR(FindMarkers(state, std::move(prepared.recording)));
+  for (const std::string& lost : *damage) state.report.warnings.push_back(lost);
   if (prepared.trajectory) {
     prepared.trajectory->clock_start_ns = state.report.film.clock_start_ns;
     PLEINAIR_RETURN_IF_ERROR(state.pipeline->FollowTrajectory(*prepared.trajectory));

@@ -56,14 +56,19 @@ bool IsFramePack(const std::filesystem::path& file);
 struct OpenedFramePack {
   std::unique_ptr<FrameSource> frames;
   double frame_rate_hz = 0.0;      ///< Computed from the time stamps; 0 with fewer than two frames.
-  std::int64_t dropped_bytes = 0;  ///< Bytes of the file that belong to no whole frame.
-  std::vector<std::string> damage;  ///< What is lost, as sentences; empty for a whole pack.
+  std::int64_t dropped_bytes = 0;  ///< Bytes of the file that belong to no frame, at opening.
+  /// What is lost, as sentences; empty for a whole pack. Next() adds what it finds. One thread must
+  /// not read it while another calls Next().
+  std::shared_ptr<const std::vector<std::string>> damage;
 };
 
 /// Opens the whole frames of a pack, with the recorded time stamps, exposure and losses. A frame is
-/// whole if its checksum holds. Reads the file once: behind damage it searches for the next whole
-/// frame. Time stamps count from the first whole frame. `size`: required size of every frame; 0x0:
-/// the size of the first. Errors: not a frame pack, no whole frame, another size.
+/// whole if its checksum holds. Opening reads the headers, and the first and the last frame. If
+/// they are damaged, and when Next() meets a damaged frame, it reads the file once: behind damage
+/// it searches for the next whole frame. FrameCount() stays the number found at opening; damage
+/// that Next() finds makes it fewer frames. Time stamps count from the first whole frame. `size`:
+/// required size of every frame; 0x0: the size of the first. Errors: not a frame pack, no whole
+/// frame, another size.
 Result<OpenedFramePack> OpenFramePack(const std::filesystem::path& file, ImageSize size);
 
 struct RecoveredFramePack {

@@ -40,8 +40,8 @@ std::optional<FrameRecordHead> FrameRecordHead::Decode(std::string_view bytes) {
   head.metadata_bytes = reader.Get<std::uint32_t>();
   head.image_bytes = reader.Get<std::uint64_t>();
   head.checksum = reader.Get<std::uint32_t>();
-  if (magic != kMagic || head.metadata_bytes > kMaxMetadataBytes ||
-      head.image_bytes > kMaxImageBytes) {
+  if (magic != kMagic || head.metadata_bytes < kMinMetadataBytes ||
+      head.metadata_bytes > kMaxMetadataBytes || head.image_bytes > kMaxImageBytes) {
     return std::nullopt;
   }
   return head;

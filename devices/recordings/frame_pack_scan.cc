@@ -22,6 +22,19 @@ bool ReadPackBytes(std::ifstream& file, std::int64_t at, void* to, std::size_t c
   return static_cast<std::size_t>(file.gcount()) == count;
 }
 
+/// The record at a position by its header alone. Nullopt: there is no header, or its lengths lead
+/// beyond the end of the file.
+std::optional<FramePackPlace> PlaceAt(std::ifstream& file, std::int64_t at,
+                                      std::int64_t file_bytes) {
+  std::array<char, FrameRecordHead::kBytes> bytes{};
+  if (!ReadPackBytes(file, at, bytes.data(), bytes.size())) return std::nullopt;
+  const auto head = FrameRecordHead::Decode({bytes.data(), bytes.size()});
+  if (!head) return std::nullopt;
+  const FramePackPlace place{at, *head, 0};
+  if (place.bytes() > file_bytes - at) return std::nullopt;
+  return place;
+}
+
 /// Finds the first whole record at or behind a position.
 class RecordSearch {
  public:
@@ -54,18 +67,14 @@ class RecordSearch {
 
  private:
   std::optional<FramePackPlace> RecordAt(std::int64_t at) {
-    std::array<char, FrameRecordHead::kBytes> bytes{};
-    if (!ReadPackBytes(stream_, at, bytes.data(), bytes.size())) return std::nullopt;
-    const auto head = FrameRecordHead::Decode({bytes.data(), bytes.size()});
-    if (!head) return std::nullopt;
-    FramePackPlace place{at, *head, 0};
-    if (place.bytes() > file_bytes_ - at) return std::nullopt;
-    const auto read = ReadFramePackRecord(stream_, place);
+    auto place = PlaceAt(stream_, at, file_bytes_);
+    if (!place) return std::nullopt;
+    const auto read = ReadFramePackRecord(stream_, *place);
     if (!read) {
-      budget_ -= place.bytes();
+      budget_ -= place->bytes();
       return std::nullopt;
     }
-    place.timestamp_ns = read->frame.timestamp_ns;
+    place->timestamp_ns = read->frame.timestamp_ns;
     return place;
   }
 
@@ -135,6 +144,28 @@ std::vector<std::string> FramePackScan::Damage(const fs::path& file) const {
         "; all whole frames are used, 'pleinair recover' makes a clean copy of them";
   }
   return sentences;
+}
+
+std::optional<FramePackScan> WalkFramePack(const fs::path& file) {
+  std::error_code error;
+  FramePackScan chain;
+  chain.file_bytes = static_cast<std::int64_t>(fs::file_size(file, error));
+  if (error) return std::nullopt;
+  std::ifstream stream(file, std::ios::binary);
+  auto at = static_cast<std::int64_t>(kFramePackStart.size());
+  while (at != chain.file_bytes) {
+    const auto place = PlaceAt(stream, at, chain.file_bytes);
+    if (!place) return std::nullopt;
+    chain.places.push_back(*place);
+    at += place->bytes();
+  }
+  if (chain.places.empty()) return std::nullopt;
+  for (FramePackPlace* place : {&chain.places.front(), &chain.places.back()}) {
+    const auto read = ReadFramePackRecord(stream, *place);
+    if (!read) return std::nullopt;
+    place->timestamp_ns = read->frame.timestamp_ns;
+  }
+  return chain;
 }
 
 Result<FramePackScan> ScanFramePack(const fs::path& file) {

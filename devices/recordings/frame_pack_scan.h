@@ -18,7 +18,7 @@ namespace pleinair::devices {
 struct FramePackPlace {
   std::int64_t at = 0;  ///< Offset of its first byte in the file.
   FrameRecordHead head;
-  std::int64_t timestamp_ns = 0;
+  std::int64_t timestamp_ns = 0;  ///< Of a chain: known of the first and the last frame alone.
 
   std::int64_t bytes() const {
     return static_cast<std::int64_t>(FrameRecordHead::kBytes + head.metadata_bytes +
@@ -36,6 +36,11 @@ struct FramePackScan {
   /// What is lost, as sentences: where in the file, and between which times.
   std::vector<std::string> Damage(const std::filesystem::path& file) const;
 };
+
+/// Goes from header to header of a file without damage to their order. Reads all bytes of the first
+/// and the last record alone: a power cut damages the end. Nullopt: the headers do not lead to the
+/// end of the file, or one of the two records is damaged; ScanFramePack() then finds what is whole.
+std::optional<FramePackScan> WalkFramePack(const std::filesystem::path& file);
 
 /// Finds the whole frames of a frames.pack, also of a cut or damaged one. A damaged record is
 /// skipped. Its lengths may be wrong, so the search for the next whole one begins behind its first
