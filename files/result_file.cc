@@ -22,8 +22,10 @@ Result<std::string> ReadTextFile(const std::string& path) {
   };
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> opened(nullptr, &std::fclose);
   if (!standard_input) {
-    // A named pipe might never be written to. Open descriptors are the shell's: <(command).
-    const bool is_open = path.starts_with("/dev/fd/") || path.starts_with("/proc/self/fd/");
+    // A named pipe might never be written to. Open descriptors are the shell's: <(command), or a
+    // pipe to /dev/stdin.
+    const bool is_open =
+        path == "/dev/stdin" || path.starts_with("/dev/fd/") || path.starts_with("/proc/self/fd/");
     if (!is_open) PLEINAIR_RETURN_IF_ERROR(CheckRegularFile(path));
     opened.reset(std::fopen(path.c_str(), "rb"));
     if (!opened) return fail(errno);

@@ -14,8 +14,8 @@ namespace pleinair::files {
 /// Size limit of a table: room for ten million rows.
 constexpr std::size_t kMaxTableBytes = std::size_t{1} << 30;
 
-/// Reads a whole text file; "-" is standard input. Errors (input): a named file that is no regular
-/// file, more than kMaxTableBytes, a NUL byte.
+/// Reads a whole text file; "-" and "/dev/stdin" are standard input. Errors (input): a named file
+/// that is neither regular nor an open descriptor, more than kMaxTableBytes, a NUL byte.
 Result<std::string> ReadTextFile(const std::string& path);
 
 /// The name of that file in error messages.

@@ -155,6 +155,15 @@ TEST(Sun, AddsItsColumnsToATable) {
   EXPECT_EQ(Fields(lines[2]).size(), 8u);
 }
 
+TEST(Sun, ReadsATableFromAPipe) {
+  for (const char* name : {"-", "/dev/stdin", "/dev/fd/0"}) {
+    const RunResult run = RunPleinair({"sun", "--csv", name},
+                                      "printf 'utc,lat,lon\\n2025-06-21T12:00:00Z,50,14\\n' |");
+    EXPECT_EQ(run.exit_code, 0) << name << run.err;
+    EXPECT_EQ(Lines(run.out).size(), 2U) << name;
+  }
+}
+
 TEST(Sun, DrawsTheSunPathAsSvgAndPng) {
   const TemporaryFolder folder;
   for (const char* name : {"path.svg", "path.png"}) {
