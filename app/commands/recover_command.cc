@@ -2,8 +2,10 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -13,6 +15,7 @@
 #include "app/options/option_use.h"
 #include "app/output/output_folder.h"
 #include "app/terminal/interrupt.h"
+#include "app/terminal/interrupt_deadline.h"
 #include "base/atomic_file.h"
 #include "devices/recordings/frame_pack.h"
 
@@ -73,6 +76,7 @@ Result<void> RunRecover(const RecoverArguments& arguments) {
   PLEINAIR_RETURN_IF_ERROR(CheckRecoverArguments(arguments));
   const InterruptGuard guard;
   PLEINAIR_ASSIGN_OR_RETURN(OutputFolder folder, OutputFolder::Create(arguments.output));
+  std::optional<InterruptDeadline> deadline(std::in_place, arguments.recording, folder.CleanUp());
   const fs::path from(arguments.recording);
   const auto recovered =
       devices::RecoverFramePack(from / kPackName, folder.staging() / kPackName,
@@ -81,6 +85,8 @@ Result<void> RunRecover(const RecoverArguments& arguments) {
   if (auto copied = CopyOtherFiles(from, folder.staging()); !copied) {
     return tl::make_unexpected(folder.InTermsOfTarget(copied.error()));
   }
+  PLEINAIR_RETURN_IF_ERROR(CheckInterrupt(arguments.recording));
+  deadline.reset();  // The files appear together: all or none.
   PLEINAIR_RETURN_IF_ERROR(folder.Commit());
   if (arguments.json) {
     const nlohmann::ordered_json json{

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -55,7 +56,7 @@ TEST(Recover, CopiesTheRecordingWithItsWholeFrames) {
   const auto clean = devices::OpenFramePack(folder / "clean/frames.pack", {});
   ASSERT_TRUE(clean);
   EXPECT_EQ(clean->frames->FrameCount(), 3);
-  EXPECT_TRUE(clean->damage.empty());
+  EXPECT_TRUE(clean->damage->empty());
 }
 
 TEST(Recover, ReplacesNothing) {
@@ -70,6 +71,24 @@ TEST(Recover, ReplacesNothing) {
   ExpectRefused(recover("walk"), "is not empty");
   ExpectRefused(recover("walk/clean"), "lies inside the recording");
   EXPECT_THAT(Listing(folder / "there"), ElementsAre("mine"));
+}
+
+TEST(Recover, InterruptedDuringTheSearchLeavesNothing) {
+  const TemporaryFolder folder;
+  fs::create_directory(folder / "walk");
+  WriteFile(folder / "walk/frames.pack", "pleinair frames\n");
+  // Zeros without room on the disk, whose search takes many seconds.
+  fs::resize_file(folder / "walk/frames.pack", std::uintmax_t{1} << 37);
+  const std::string out = folder / "clean";
+  // After it has begun to write, or after a timeout.
+  const RunResult run = RunCommandLine(
+      {"sh", "-c",
+       PleinairProgram() + " recover '" + std::string(folder / "walk") + "' -o '" + out +
+           "' & n=0; until ls -d '" + out +
+           "'/.pleinair.part* >/dev/null 2>&1 || [ $((n += 1)) -gt 5000 ]; do :; done; "
+           "kill -INT $!; wait $!"});
+  ExpectRefused(run, "interrupted", 1);
+  EXPECT_FALSE(fs::exists(out));
 }
 
 }  // namespace
