@@ -31,13 +31,16 @@ struct MeshSunlight {
   std::vector<std::array<float, 3>> lifts;
 };
 
-/// Attributes of a mesh's vertices besides geometry and light.
+/// Attributes of a mesh besides geometry and light.
 struct MeshTexturing {
   std::vector<std::array<float, 2>> uvs;  ///< Empty, or one per position.
   std::vector<VertexDetail> details;      ///< Empty, or one per position.
   /// The mesh is the side of an open surface that faces away from the file's winding. Bumps that
   /// stick out of the front go into the back.
   bool is_back = false;
+  /// Diffuse reflectance that its light was computed with: linear Rec.709, the mean of textures and
+  /// colors of vertices.
+  std::array<float, 3> reflectance{};
 };
 
 /// A tessellated surface with the irradiance at its vertices, without direct sunlight. Marker

@@ -90,7 +90,7 @@ Result<void> SceneSurfaces::SetSurfaces(const std::vector<LitMesh>& lit) {
     if (mesh.is_phantom) {
       const Material& material = MaterialOf(surfaces_.back());
       const bool even = material.base_color_texture < 0 && material.metallic == 0.0F;
-      green_albedos.push_back(even ? material.base_color[1] : 0.0F);
+      green_albedos.push_back(even ? mesh.texturing.reflectance[1] : 0.0F);
       reduction_.AddPhantom(mesh);
       phantoms.push_back(&mesh);
     } else if (surfaces_.back().IsDrawnObject()) {

@@ -70,6 +70,35 @@ TEST(Composer, DrawsAFurtherLightAsIfItWereTheFirst) {
   EXPECT_EQ(light(composer->get(), sunny), in_sun);
 }
 
+TEST(Composer, KnowsTheColorThatGroundIsGivenLate) {
+  const std::vector<PlacedModel> assumed{Place(MakeBox({-4, -4, 0}, {4, 4, 0}, 0.33F), true),
+                                         kCube};
+  const std::vector<PlacedModel> measured{Place(MakeBox({-4, -4, 0}, {4, 4, 0}, 0.12F), true),
+                                          kCube};
+  const auto late = Composer::Create(kCamera, assumed, {});
+  const auto early = Composer::Create(kCamera, measured, {});
+  ASSERT_TRUE(late.has_value() && early.has_value());
+  const RgbImage asphalt = EvenPicture(87);  // Level(0.12), in the sun.
+  const double before = LinearFromSrgb8()[87];
+  ASSERT_NEAR(before, Level(0.12), 0.002);
+  const auto compose = [&](Composer* composer, const std::vector<PlacedModel>& scene) {
+    const SouthernSun day;
+    const auto solver = LightSolver::Create(scene, {.rays_per_vertex = 64});
+    EXPECT_TRUE(composer->SetLight(solver.value()->Solve(day, Mat3{}), day, Mat3{}, {}));
+    auto composed = composer->Compose(asphalt.view(), kFromAbove,
+                                      {kExposureScale, kExposureScale, kExposureScale});
+    EXPECT_TRUE(composed.has_value());
+    return *std::move(composed);
+  };
+  const Vec3 in_shadow{0, 0.3, 0};
+  EXPECT_GT(SeenAt(compose(late->get(), assumed), in_shadow), 0.5 * before)
+      << "lighter ground would be shaded already";
+  const RgbImage now = compose(late->get(), measured);
+  EXPECT_LT(SeenAt(now, in_shadow), 0.4 * before);
+  const RgbImage known = compose(early->get(), measured);
+  EXPECT_TRUE(std::equal(now.data(), now.data() + now.size(), known.data()));
+}
+
 /// A wall's shadow on the ground beside the cube's.
 class SunReachOfWallTest : public ::testing::Test {
  protected:

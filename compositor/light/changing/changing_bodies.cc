@@ -11,7 +11,6 @@
 #include "compositor/light/changing/contact_light.h"
 #include "compositor/light/changing/sky_harmonics.h"
 #include "compositor/light/changing/surroundings.h"
-#include "compositor/light/reflectance.h"
 
 namespace pleinair::compositor {
 namespace {
@@ -37,7 +36,6 @@ class TracedBodies : public ChangingBodies {
   explicit TracedBodies(const std::vector<PlacedModel>& scene) {
     bodies_.reserve(scene.size());  // Probes refer to them.
     for (std::size_t i = 0; i < scene.size(); ++i) {
-      models_.push_back(scene[i].model);
       if (!scene[i].playback.animation) continue;
       bodies_.emplace_back(scene[i], static_cast<int>(i));
     }
@@ -138,11 +136,8 @@ class TracedBodies : public ChangingBodies {
     meshes_ = still_;
     meshes_.insert(meshes_.end(), std::make_move_iterator(drawn.begin()),
                    std::make_move_iterator(drawn.end()));
-    const auto albedo_of = [&](const LitMesh& mesh) {
-      return ReflectanceOf(*models_[static_cast<std::size_t>(mesh.placed_model)], mesh.material);
-    };
-    PLEINAIR_RETURN_IF_ERROR(surroundings_.SetStill(PairedSides(Still(), albedo_of)));
-    std::vector<Surroundings::Surface> bodies = PairedSides(Drawn(), albedo_of);
+    PLEINAIR_RETURN_IF_ERROR(surroundings_.SetStill(PairedSides(Still())));
+    std::vector<Surroundings::Surface> bodies = PairedSides(Drawn());
     for (Surroundings::Surface& body : bodies) {
       body.coarse = probes_->CoarseTriangles(static_cast<std::size_t>(body.front - Drawn().data()));
     }
@@ -182,7 +177,6 @@ class TracedBodies : public ChangingBodies {
     contacts_->Light(Still());
   }
 
-  std::vector<std::shared_ptr<const Model>> models_;  // By placed model.
   std::vector<ChangingMesh> bodies_;
   std::vector<LitMesh> still_;  // Without the bodies.
   std::vector<LitMesh> meshes_;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "compositor/light/edge_splitting.h"
+#include "compositor/light/reflectance.h"
 
 namespace pleinair::compositor {
 namespace {
@@ -63,6 +64,7 @@ ChangingMesh::ChangingMesh(const PlacedModel& placed, int placed_model)
   for (TracedSurface& from : traced) {
     Source& source = sources_.emplace_back();
     source.mesh = from.mesh;
+    source.reflectance = ReflectanceOf(*placed.model, from.surface.material);
     source.vertices = std::move(from.vertices);
     const auto& normals = placed.model->meshes[from.mesh].normals;
     for (std::size_t i = 0; i < source.vertices.size(); ++i) {
@@ -122,7 +124,8 @@ std::vector<LitMesh> ChangingMesh::DrawnMeshes() const {
   // Beyond the numbers that light solvers give.
   static std::atomic<std::uint64_t> geometry{std::uint64_t{1} << 62};
   std::vector<LitMesh> drawn;
-  for (const SurfaceMesh& surface : surfaces_) {
+  for (std::size_t s = 0; s < surfaces_.size(); ++s) {
+    const SurfaceMesh& surface = surfaces_[s];
     for (const bool back : {false, true}) {
       if (back && surface.closed) continue;
       LitMesh& mesh = drawn.emplace_back();
@@ -132,7 +135,7 @@ std::vector<LitMesh> ChangingMesh::DrawnMeshes() const {
       mesh.geometry = geometry++;
       mesh.positions = surface.positions;
       mesh.normals = surface.normals;
-      mesh.texturing = {surface.uvs, surface.details, back};
+      mesh.texturing = {surface.uvs, surface.details, back, sources_[s].reflectance};
       mesh.indices = surface.indices;
       mesh.ambient_with.resize(surface.positions.size());
       mesh.sunlight.reflected_with.resize(surface.positions.size());

@@ -89,10 +89,7 @@ class Surroundings {
 };
 
 /// Pairs the two sides of each open surface among `meshes` and leaves out what occludes no light.
-/// `albedo_of(mesh)` is called for the front.
-template <typename AlbedoOf>
-std::vector<Surroundings::Surface> PairedSides(std::span<const LitMesh> meshes,
-                                               const AlbedoOf& albedo_of) {
+inline std::vector<Surroundings::Surface> PairedSides(std::span<const LitMesh> meshes) {
   std::vector<Surroundings::Surface> surfaces;
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     const LitMesh* front = &meshes[i];
@@ -107,7 +104,7 @@ std::vector<Surroundings::Surface> PairedSides(std::span<const LitMesh> meshes,
       }
     }
     if (front->role == MeshRole::kRenderOnly) continue;
-    surfaces.push_back({front, back, albedo_of(*front), {}});
+    surfaces.push_back({front, back, front->texturing.reflectance, {}});
   }
   return surfaces;
 }
