@@ -119,10 +119,7 @@ void BackgroundLight::Run() {
       shown = std::exchange(shared_.shown, std::nullopt);
     }
     TakeCoefficients(worker);
-    if (wanted.edit.objects != placed_.objects || wanted.edit.phantoms != placed_.phantoms) {
-      // Surfaces that cannot be placed leave the last light in use.
-      if (!Place(wanted.edit)) continue;
-    }
+    PlaceIfPossible(&wanted.edit);
     if (NeedsLight(wanted)) Make(wanted, placed_.solver);
     if (shown) EstimateLight(*shown, wanted);
     if (placed_.ordered_for != placed_.solver || wanted.edit.convergence != placed_.convergence) {
@@ -131,20 +128,32 @@ void BackgroundLight::Run() {
   }
 }
 
-/// Builds a solver for the placements of an edit.
+/// Follows the placements of an edit. Those that cannot be lit are replaced in the edit by the last
+/// ones that could.
+void BackgroundLight::PlaceIfPossible(SceneEdit* edit) {
+  if (edit->objects == placed_.objects && edit->phantoms == placed_.phantoms) return;
+  const bool refused = placed_.refused && edit->objects == placed_.refused->objects &&
+                       edit->phantoms == placed_.refused->phantoms;
+  if (!refused && Place(*edit)) return;
+  if (!refused) placed_.refused = *edit;
+  edit->objects = placed_.objects;
+  edit->phantoms = placed_.phantoms;
+}
+
+/// Builds a solver for the placements of an edit. After an error all is as before.
 Result<void> BackgroundLight::Place(const SceneEdit& edit) {
-  const std::size_t phantoms = setup_.placed.size() - edit.objects.size();
+  std::vector<compositor::PlacedModel> placed = setup_.placed;
+  const std::size_t phantoms = placed.size() - edit.objects.size();
   for (std::size_t i = 0; i < edit.objects.size(); ++i) {
-    MoveTo(edit.objects[i], &setup_.placed[phantoms + i]);
+    MoveTo(edit.objects[i], &placed[phantoms + i]);
   }
-  if (edit.phantoms != placed_.phantoms) {
+  const bool moves_phantoms = edit.phantoms != placed_.phantoms;
+  if (moves_phantoms) {
     const scene::SceneDescription scene = WithEdit(setup_.scene, edit);
     for (std::size_t i = 0; i < phantoms; ++i) {
       if (!scene.phantoms[i].surface) continue;
-      PLEINAIR_ASSIGN_OR_RETURN(setup_.placed[i],
-                                PlaceModel(scene.phantoms[i], true, scene.marker));
+      PLEINAIR_ASSIGN_OR_RETURN(placed[i], PlaceModel(scene.phantoms[i], true, scene.marker));
     }
-    known_.estimator.reset();  // It has seen shadows of other phantoms.
   }
   if (const auto solver = std::exchange(setup_.solver, nullptr)) {
     placed_.solver = solver->WithRays(kFewRays);
@@ -152,11 +161,13 @@ Result<void> BackgroundLight::Place(const SceneEdit& edit) {
     compositor::LightSolverOptions options;
     options.rays_per_vertex = kFewRays;
     options.max_patches = setup_.light.overrides.max_patches.value_or(options.max_patches);
-    PLEINAIR_ASSIGN_OR_RETURN(placed_.solver,
-                              compositor::LightSolver::Create(setup_.placed, options));
+    PLEINAIR_ASSIGN_OR_RETURN(placed_.solver, compositor::LightSolver::Create(placed, options));
   }
+  setup_.placed = std::move(placed);
+  if (moves_phantoms) known_.estimator.reset();  // It has seen shadows of other phantoms.
   placed_.objects = edit.objects;
   placed_.phantoms = edit.phantoms;
+  placed_.refused.reset();
   placed_.coefficients.reset();  // They belong to another scene.
   made_.wanted.reset();
   return {};

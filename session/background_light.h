@@ -95,6 +95,7 @@ class BackgroundLight {
 
   explicit BackgroundLight(Setup setup);
   void Run();
+  void PlaceIfPossible(SceneEdit* edit);
   Result<void> Place(const SceneEdit& edit);
   void Make(const Wanted& wanted, std::shared_ptr<const compositor::LightSolver> solver);
   bool NeedsLight(const Wanted& wanted) const;
@@ -111,6 +112,7 @@ class BackgroundLight {
     std::shared_ptr<const compositor::LightSolver> solver{};
     std::vector<ObjectPlace> objects{};
     std::vector<SurfacePlace> phantoms{};
+    std::optional<SceneEdit> refused{};  // The last one, if its placements cannot be lit.
     std::shared_ptr<const compositor::DaylightCoefficients> coefficients{};
     double convergence = 0.0;  // Of the coefficients.
     std::shared_ptr<const compositor::LightSolver>

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <string>
 #include <thread>
@@ -66,6 +67,39 @@ TEST(BackgroundLight, LightsTheGroundWhereItWasMovedTo) {
     std::this_thread::sleep_for(milliseconds(1));
   }
   EXPECT_EQ(ground_m(*in_use), -0.25F);
+}
+
+TEST(BackgroundLight, GoesOnWithTheLastPlacementWhereTheNextCannotBeLit) {
+  BackgroundLight::Setup setup = BoxOnGround();
+  setup.scene.phantoms[0].surface = scene::GroundSurface(4.0, 0.0, false);
+  setup.edit = UneditedScene(setup.scene, {});
+  auto light = BackgroundLight::Create(setup);
+  ASSERT_TRUE(light) << light.error().Message();
+  const auto await = [&](const auto& is_wanted) -> std::shared_ptr<const BakedLighting> {
+    // A sanitizer build on a busy machine needs about ten seconds per light.
+    for (int i = 0; i < 60'000; ++i) {
+      if (auto newest = (*light)->Take(); newest && is_wanted(*newest)) return newest;
+      std::this_thread::sleep_for(milliseconds(1));
+    }
+    return nullptr;
+  };
+  SceneEdit edit = setup.edit;
+  edit.phantoms[0].translation_m.z = -0.25;
+  edit.objects[0].scale = std::numeric_limits<double>::infinity();
+  (*light)->SetEdit(edit);
+  const UtcTime later = setup.time.PlusSeconds(2 * 3600);
+  (*light)->SetTime(later);
+  const auto follows_the_sun =
+      await([&](const auto& lit) { return lit.request.time == later && lit.request.coefficients; });
+  ASSERT_NE(follows_the_sun, nullptr);
+  EXPECT_EQ(follows_the_sun->objects, setup.edit.objects);
+  // Nothing of the refused edit is left in the next one.
+  edit = setup.edit;
+  edit.objects[0].translation_m = {-0.3, 0.1, 0.0};
+  (*light)->SetEdit(edit);
+  const auto moved = await([&](const auto& lit) { return lit.objects == edit.objects; });
+  ASSERT_NE(moved, nullptr);
+  EXPECT_EQ(moved->meshes.at(0).positions.at(0)[2], 0.0F);
 }
 
 TEST(BackgroundLight, RelightsAMovedObjectWhileOthersLookOn) {
