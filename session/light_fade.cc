@@ -1,9 +1,7 @@
 #include "session/light_fade.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
-#include <utility>
 
 namespace pleinair::session {
 namespace {
@@ -12,17 +10,15 @@ using compositor::LitMesh;
 
 constexpr double kFade_s = 0.4;
 
-using VertexLight = std::vector<std::array<float, 3>>;
-
-/// Empty light is black.
-void MixInto(const VertexLight& from, float weight, VertexLight* to) {
-  if (from.empty() && to->empty()) return;
-  to->resize(std::max(from.size(), to->size()));
-  for (std::size_t i = 0; i < to->size(); ++i) {
+/// Mixes `from` and `next`, of which empty light is black.
+template <typename VertexLight>
+void MixLight(const VertexLight& from, float weight, const VertexLight& next, VertexLight* mixed) {
+  mixed->resize(std::max(from.size(), next.size()));
+  for (std::size_t i = 0; i < mixed->size(); ++i) {
     for (std::size_t channel = 0; channel < 3; ++channel) {
       const float was = i < from.size() ? from[i][channel] : 0.0F;
-      float& is = (*to)[i][channel];
-      is += weight * (was - is);
+      const float is = i < next.size() ? next[i][channel] : 0.0F;
+      (*mixed)[i][channel] = is + weight * (was - is);
     }
   }
 }
@@ -36,33 +32,52 @@ bool HaveSameSurfaces(const std::vector<LitMesh>& a, const std::vector<LitMesh>&
 }  // namespace
 
 void LightFade::Begin(const std::vector<LitMesh>& in_use, const std::vector<LitMesh>& next) {
+  if (!HaveSameSurfaces(in_use, next)) {
+    End();
+    return;
+  }
   // A fade that goes on is left where it is.
-  const std::vector<LitMesh>& shown = mixed_.empty() ? in_use : mixed_;
-  from_ = HaveSameSurfaces(shown, next) ? shown : std::vector<LitMesh>();
-  mixed_.clear();
+  if (!on() || start_) {
+    const std::vector<LitMesh>& shown = on() ? mixed_ : in_use;
+    from_.clear();
+    from_.reserve(shown.size());
+    for (const LitMesh& mesh : shown) {
+      from_.push_back({mesh.ambient_with, mesh.ambient_without, mesh.sunlight.reflected_with,
+                       mesh.sunlight.reflected_without});
+    }
+  }
+  mixed_ = next;
   start_.reset();
 }
 
-std::optional<std::vector<LitMesh>> LightFade::At(UtcTime time, const std::vector<LitMesh>& next) {
-  if (from_.empty()) return std::nullopt;
+const std::vector<LitMesh>* LightFade::At(UtcTime time, const std::vector<LitMesh>& next) {
+  if (!on()) return nullptr;
   if (!start_) start_ = time;
   const double elapsed_s =
       static_cast<double>(time.nanoseconds_since_1970() - start_->nanoseconds_since_1970()) * 1e-9;
   // A recording that begins again goes back in time.
   if (elapsed_s < 0.0 || elapsed_s >= kFade_s) {
-    from_.clear();
-    mixed_.clear();
-    return std::nullopt;
+    End();
+    return nullptr;
   }
   const auto weight = static_cast<float>(1.0 - elapsed_s / kFade_s);
-  mixed_ = next;
   for (std::size_t i = 0; i < mixed_.size(); ++i) {
-    MixInto(from_[i].ambient_with, weight, &mixed_[i].ambient_with);
-    MixInto(from_[i].ambient_without, weight, &mixed_[i].ambient_without);
-    MixInto(from_[i].sunlight.reflected_with, weight, &mixed_[i].sunlight.reflected_with);
-    MixInto(from_[i].sunlight.reflected_without, weight, &mixed_[i].sunlight.reflected_without);
+    const MeshLight& from = from_[i];
+    LitMesh& mixed = mixed_[i];
+    MixLight(from.with, weight, next[i].ambient_with, &mixed.ambient_with);
+    MixLight(from.without, weight, next[i].ambient_without, &mixed.ambient_without);
+    MixLight(from.reflected_with, weight, next[i].sunlight.reflected_with,
+             &mixed.sunlight.reflected_with);
+    MixLight(from.reflected_without, weight, next[i].sunlight.reflected_without,
+             &mixed.sunlight.reflected_without);
   }
-  return mixed_;
+  return &mixed_;
+}
+
+void LightFade::End() {
+  from_.clear();
+  mixed_.clear();
+  start_.reset();
 }
 
 }  // namespace pleinair::session

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -12,23 +13,30 @@ namespace pleinair::session {
 /// scene thus appears without a jump.
 class LightFade {
  public:
-  /// Begins a fade from the light in use at the next call of At(). Lights of different surfaces
-  /// (LitMesh::geometry) do not fade.
+  /// Begins a fade from the light in use to `next` at the next call of At(). Lights of different
+  /// surfaces (LitMesh::geometry) do not fade.
   void Begin(const std::vector<compositor::LitMesh>& in_use,
              const std::vector<compositor::LitMesh>& next);
 
-  /// Returns the light of a frame at `time`: a linear mix with `next` over 0.4 s of frame time.
-  /// Nothing: no fade goes on, and `next` is used as it is. A fade has just ended if on() was true
-  /// before the call.
-  std::optional<std::vector<compositor::LitMesh>> At(UtcTime time,
-                                                     const std::vector<compositor::LitMesh>& next);
+  /// Returns the light of a frame at `time`: a linear mix with `next`, as in Begin(), over 0.4 s of
+  /// frame time. It is valid until the next call. Null: no fade goes on, and `next` is used as it
+  /// is. A fade has just ended if on() was true before the call.
+  const std::vector<compositor::LitMesh>* At(UtcTime time,
+                                             const std::vector<compositor::LitMesh>& next);
 
-  /// True until At() has returned nothing.
+  /// True until At() has returned null.
   bool on() const { return !from_.empty(); }
 
  private:
-  std::vector<compositor::LitMesh> from_;   // Empty: no fade goes on.
-  std::vector<compositor::LitMesh> mixed_;  // Light of the last frame.
+  using VertexLight = std::vector<std::array<float, 3>>;
+  struct MeshLight {
+    VertexLight with, without, reflected_with, reflected_without;
+  };
+
+  void End();
+
+  std::vector<MeshLight> from_;             // Empty: no fade goes on.
+  std::vector<compositor::LitMesh> mixed_;  // In the last frame; before the first, `next`.
   std::optional<UtcTime> start_;
 };
 

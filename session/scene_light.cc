@@ -120,9 +120,9 @@ bool SceneLight::IsStale(const sky::SunPosition& sun) const {
   return !made_elsewhere_ && !(in_use_ && IsNearSun(in_use_->sun, sun));
 }
 
-void SceneLight::Use(std::shared_ptr<const BakedLighting> light, bool made_elsewhere) {
+void SceneLight::Use(std::shared_ptr<const BakedLighting> light, bool made_elsewhere, bool fades) {
   if (made_elsewhere) {
-    if (in_use_) fade_.Begin(in_use_->meshes, light->meshes);
+    if (in_use_ && fades) fade_.Begin(in_use_->meshes, light->meshes);
     made_elsewhere_ = true;
     skies_ = light->request.skies;
   }
@@ -130,10 +130,10 @@ void SceneLight::Use(std::shared_ptr<const BakedLighting> light, bool made_elsew
   in_use_ = std::move(light);
 }
 
-std::optional<std::vector<compositor::LitMesh>> SceneLight::FadedMeshes(UtcTime time) {
-  if (!fade_.on()) return std::nullopt;
-  auto mixed = fade_.At(time, in_use_->meshes);
-  return mixed ? std::move(mixed) : std::optional(in_use_->meshes);
+const std::vector<compositor::LitMesh>* SceneLight::FadedMeshes(UtcTime time) {
+  if (!fade_.on()) return nullptr;
+  const std::vector<compositor::LitMesh>* mixed = fade_.At(time, in_use_->meshes);
+  return mixed != nullptr ? mixed : &in_use_->meshes;
 }
 
 }  // namespace pleinair::session

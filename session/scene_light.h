@@ -102,12 +102,13 @@ class SceneLight {
   bool IsStale(const sky::SunPosition& sun) const;
 
   /// Uses this illumination from now on. Once one was `made_elsewhere`, none is computed here
-  /// again.
-  void Use(std::shared_ptr<const BakedLighting> light, bool made_elsewhere);
+  /// again. `fades`: the one in use may fade into it.
+  void Use(std::shared_ptr<const BakedLighting> light, bool made_elsewhere, bool fades);
 
   /// The meshes of a frame at `time` while one illumination made elsewhere fades into the next;
-  /// those of in_use() at the end of a fade. Nothing where they are already drawn.
-  std::optional<std::vector<compositor::LitMesh>> FadedMeshes(UtcTime time);
+  /// those of in_use() at the end of a fade. Null where they are already drawn. Valid until the
+  /// next call, or Use().
+  const std::vector<compositor::LitMesh>* FadedMeshes(UtcTime time);
 
   /// The illumination in use; null before the first.
   const BakedLighting* in_use() const { return in_use_.get(); }

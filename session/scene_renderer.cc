@@ -231,7 +231,10 @@ Result<void> SceneRenderer::TakeLight(std::shared_ptr<const BakedLighting> light
   PLEINAIR_RETURN_IF_ERROR(
       composer_->SetLight(light->meshes, daylight, marker_from_world, light->from_below));
   exposure_.SetMeter(light->meter);
-  light_->Use(std::move(light), made_elsewhere);
+  // Beside bodies that change their shape, the composer has its own indirect illumination.
+  const bool fades = std::ranges::none_of(
+      placed_, [](const auto& placed) { return placed.playback.animation != nullptr; });
+  light_->Use(std::move(light), made_elsewhere, fades);
   MoveObjects();
   return {};
 }
@@ -250,8 +253,8 @@ Result<void> SceneRenderer::UseLight(std::shared_ptr<const BakedLighting> light)
 
 /// Draws the light between the last one and the one in use, while one fades into the other.
 Result<void> SceneRenderer::FadeLight(UtcTime time) {
-  const auto meshes = light_->FadedMeshes(time);
-  return meshes ? composer_->SetAmbient(*meshes) : Result<void>();
+  const std::vector<compositor::LitMesh>* meshes = light_->FadedMeshes(time);
+  return meshes != nullptr ? composer_->SetAmbient(*meshes) : Result<void>();
 }
 
 Result<void> SceneRenderer::Edit(const SceneEdit& edit) {
