@@ -43,8 +43,8 @@ TEST(OutputRule, TheInputIsNeverReplacedUnderAnyName) {
     EXPECT_EQ(ReadFile(folder / "in.csv"), table);
   }
   WriteFile(folder / "camera.json", "mine");
-  ExpectRefused(RunPleinair({"live", "--calibration", folder / "camera.json", "--detections",
-                             folder / "camera.json"}),
+  ExpectRefused(RunPleinair({"live", "--camera", "v4l2:/dev/video9", "--calibration",
+                             folder / "camera.json", "--detections", folder / "camera.json"}),
                 "is the input itself");
   EXPECT_EQ(ReadFile(folder / "camera.json"), "mine");
 }

@@ -205,7 +205,7 @@ TEST_F(OutputFolderTest, AFilePutInTheWayDuringTheReplayStays) {
 }
 
 TEST_F(OutputFolderTest, AResumableOneThatCannotBeMovedIsKeptWhole) {
-  WriteReport(R"("light.csv")");
+  WriteReport(R"("light.csv", "report.json")");
   auto folder = OutputFolder::Create(root_, true);
   ASSERT_TRUE(folder);
   Write(folder->staging() / ".resume/identity");
