@@ -9,12 +9,20 @@
 #include "tracker/pose/planar_pose.h"
 
 namespace pleinair::session {
+namespace {
+
+/// S-G markers with a number. Without it, most of the pattern is unknown.
+bool IsMeasured(const tracker::MarkerDetection& detection) {
+  return detection.family == kSgFamily && detection.id;
+}
+
+}  // namespace
 
 void MarkerRefiner::Measure(std::span<Seen> frames) {
   for (const Seen& seen : frames) {
     for (const tracker::MarkerObservation& observation : seen.observations) {
-      const MarkerName name{observation.detection.family, observation.detection.id};
-      if (name.family != kSgFamily) continue;
+      if (!IsMeasured(observation.detection)) continue;
+      const MarkerName name = *NameOfDetected(observation.detection);
       Marker& marker = markers_[name];
       if (!marker.pattern) marker.pattern = PatternOf(name);
     }
@@ -25,7 +33,7 @@ void MarkerRefiner::Measure(std::span<Seen> frames) {
   for (std::size_t i = 0; i < frames.size(); ++i) {
     for (std::size_t k = 0; k < frames[i].observations.size(); ++k) {
       tracker::MarkerObservation& observation = frames[i].observations[k];
-      if (observation.detection.family == kSgFamily) TakeOver(alignments[i][k], &observation);
+      if (IsMeasured(observation.detection)) TakeOver(alignments[i][k], &observation);
     }
   }
 }
@@ -41,8 +49,8 @@ MarkerRefiner::Alignments MarkerRefiner::Align(const Seen& seen) const {
   Alignments alignments(seen.observations.size());
   for (std::size_t k = 0; k < alignments.size(); ++k) {
     const tracker::MarkerDetection& detection = seen.observations[k].detection;
-    if (detection.family != kSgFamily) continue;
-    const Marker& marker = markers_.at({detection.family, detection.id});
+    if (!IsMeasured(detection)) continue;
+    const Marker& marker = markers_.at(*NameOfDetected(detection));
     alignments[k] = tracker::AlignMarker(camera_, *marker.pattern, seen.grey, detection.corners_px,
                                          {detection.visibility_side, detection.visibility});
   }
@@ -52,7 +60,7 @@ MarkerRefiner::Alignments MarkerRefiner::Align(const Seen& seen) const {
 void MarkerRefiner::TakeOver(const std::optional<tracker::MarkerAlignment>& alignment,
                              tracker::MarkerObservation* observation) {
   tracker::MarkerDetection& detection = observation->detection;
-  Marker& marker = markers_.at({detection.family, detection.id});
+  Marker& marker = markers_.at(*NameOfDetected(detection));
   if (alignment) {
     const std::optional<tracker::PoseEstimate> pose = tracker::EstimatePlanarPose(
         camera_, alignment->corners_px, alignment->corner_covariance_px2, Metres(marker_size_m_),

@@ -28,6 +28,11 @@ double RotationAngle(const Mat3& a, const Mat3& b) {
   return std::atan2(Norm(twice_sine_axis), trace - 1.0);
 }
 
+std::optional<MarkerName> NameOfDetected(const tracker::MarkerDetection& detection) {
+  if (!detection.id) return std::nullopt;
+  return MarkerName{detection.family, *detection.id};
+}
+
 void MarkerTracks::AddFrame(std::int64_t frame_index, std::int64_t timestamp_ns,
                             const std::vector<tracker::MarkerObservation>& marker_observations) {
   ++frames_;
@@ -35,8 +40,9 @@ void MarkerTracks::AddFrame(std::int64_t frame_index, std::int64_t timestamp_ns,
   std::map<MarkerName, std::vector<Observation>> candidates;
   bool duplicates = false;
   for (const tracker::MarkerObservation& marker_observation : marker_observations) {
-    std::vector<Observation>& of_marker =
-        candidates[{marker_observation.detection.family, marker_observation.detection.id}];
+    const std::optional<MarkerName> name = NameOfDetected(marker_observation.detection);
+    if (!name) continue;
+    std::vector<Observation>& of_marker = candidates[*name];
     duplicates = duplicates || !of_marker.empty();
     const tracker::PoseEstimate& pose = marker_observation.pose;
     std::vector<std::uint8_t> visibility;

@@ -24,6 +24,9 @@ struct MarkerName {
   std::string ToString() const { return family + "_" + std::to_string(id); }
 };
 
+/// Name of a detected marker; unset if its number could not be decoded.
+std::optional<MarkerName> NameOfDetected(const tracker::MarkerDetection& detection);
+
 /// True if this marker may be the reference marker of a scene with this declaration.
 bool MayBeReferenceMarker(const MarkerName& marker, const scene::MarkerDescription& declared);
 

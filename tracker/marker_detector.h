@@ -21,10 +21,11 @@ struct PoseSquare {
   std::array<double, 64> corner_covariance_px2{};
 };
 
-/// A detected marker with its id; corners accurate to about half a pixel.
+/// A detected marker, with its id if it could be decoded; corners accurate to about half a pixel.
 struct Candidate {
   MarkerDetection detection;
-  std::shared_ptr<const MarkerPattern> pattern;  ///< Bit pattern of the marker with this id.
+  /// Bit pattern of the marker with this id; null if the detector has measured the corners.
+  std::shared_ptr<const MarkerPattern> pattern;
   /// Covariance of the corners if the detector has measured them itself (x before y, corner after
   /// corner; px²). The pattern is then not needed.
   std::optional<std::array<double, 64>> corner_covariance_px2;

@@ -19,12 +19,15 @@ const char* TrajectoryName(DetectionPath path);
 /// A marker detected in an image, before its pose is estimated.
 struct MarkerDetection {
   std::string family;  ///< "tag36h11", "sg", "picture", …
-  int id = 0;
+  /// Number of the marker. Unset for an S-G marker whose border is certain but whose number is not:
+  /// too many of its cells are occluded.
+  std::optional<int> id;
   std::string name;  ///< Name of an image target; empty for markers with an id.
   /// Corners of the outer black square, or of an image target, in pixels (integer = pixel centre):
   /// clockwise from top-left on the upright marker.
   std::array<Vec2, 4> corners_px;
-  double visible_fraction = 1.0;  ///< Visible share of the marker, 0…1.
+  double visible_fraction =
+      1.0;  ///< Visible share of the marker, 0…1; without an id, of its border.
   DetectionPath path = DetectionPath::kFast;
   /// Visibility map: `visibility_side`² squares of the marker, quiet zone included, row by row from
   /// the top-left of the upright marker; 0 covered … 1 as predicted. Empty if unknown.

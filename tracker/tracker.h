@@ -40,7 +40,7 @@ class Tracker {
   virtual ~Tracker() = default;
 
   /// Markers in one sRGB-encoded grey image of the camera's size; without markers, an empty list.
-  /// Ordered by family, id, then x of the first corner. Deterministic.
+  /// Ordered by family, id (those without one first), then x of the first corner. Deterministic.
   Result<std::vector<MarkerObservation>> Track(ImageView<const std::uint8_t> grey);
 
   /// The three parts of Track(), for callers that process several images in parallel. Find()

@@ -55,8 +55,9 @@ class OwnDetector final : public accuracy::Detector {
     }
     seen.lost = static_cast<int>(tracker_->Lost().size());
     for (tracker::MarkerObservation& observation : observations) {
+      if (!observation.detection.id) continue;
       if (options_.spoil_corners_px > 0.0) Spoil(&observation);
-      seen.markers.push_back({.number = observation.detection.id,
+      seen.markers.push_back({.number = *observation.detection.id,
                               .corners_px = observation.detection.corners_px,
                               .pose = observation.pose,
                               .pose_has_covariance = true,
@@ -78,7 +79,7 @@ class OwnDetector final : public accuracy::Detector {
     auto& corners = observation->detection.corners_px;
     // The direction depends only on the image, so that the order of frames does not matter.
     accuracy::RandomStream random(
-        0, fmt::format("spoil/{}/{}/{}", observation->detection.id, corners[0].x, corners[0].y));
+        0, fmt::format("spoil/{}/{}/{}", *observation->detection.id, corners[0].x, corners[0].y));
     for (Vec2& corner : corners) {
       const double direction = random.Uniform(0, 2 * M_PI);
       corner = corner + Vec2{std::cos(direction), std::sin(direction)} * options_.spoil_corners_px;

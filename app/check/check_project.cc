@@ -50,7 +50,8 @@ const tracker::MarkerObservation* SceneMarkerIn(
     const std::vector<tracker::MarkerObservation>& markers,
     const scene::MarkerDescription& described) {
   const auto at = std::find_if(markers.begin(), markers.end(), [&](const auto& marker) {
-    return session::MayBeReferenceMarker({marker.detection.family, marker.detection.id}, described);
+    const auto name = session::NameOfDetected(marker.detection);
+    return name && session::MayBeReferenceMarker(*name, described);
   });
   return at == markers.end() ? nullptr : &*at;
 }
@@ -84,7 +85,7 @@ Result<SiteFacts> LookAtSite(const CheckRequest& request) {
     ++facts.looked_at;
     const tracker::MarkerObservation* marker = SceneMarkerIn(tracked.observations, scene.marker);
     if (marker == nullptr) return {};
-    const session::MarkerName name{marker->detection.family, marker->detection.id};
+    const session::MarkerName name = *session::NameOfDetected(marker->detection);
     facts.frames.push_back(MeasureFrame(frame, *marker, camera,
                                         scene.marker.target
                                             ? scene::MarkerReflectance()

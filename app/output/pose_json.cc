@@ -30,7 +30,8 @@ Json SightingJson(const tracker::MarkerObservation& observation) {
     for (const float value : detection.visibility) values.push_back(std::round(value * 100) / 100);
     visibility = {{"side", detection.visibility_side}, {"values", std::move(values)}};
   }
-  Json marker{{"family", detection.family}, {"id", detection.id}};
+  Json marker{{"family", detection.family},
+              {"id", detection.id ? Json(*detection.id) : Json(nullptr)}};
   if (!detection.name.empty()) marker["name"] = detection.name;
   marker.update(Json{{"corners", corners},
                      {"camera_from_marker", PoseJson(pose.best.camera_from_marker)},

@@ -138,7 +138,9 @@ std::optional<ChosenMarker> ChooseMarker(const FilmLook& look,
   std::map<session::MarkerName, double> best_score;
   for (const LookedAtFrame& frame : look.looked_at) {
     for (const tracker::MarkerObservation& marker : frame.markers) {
-      const session::MarkerName name{marker.detection.family, marker.detection.id};
+      const auto named = session::NameOfDetected(marker.detection);
+      if (!named) continue;
+      const session::MarkerName& name = *named;
       ChosenMarker& chosen = seen[name];
       chosen.name = name;
       ++chosen.frames;

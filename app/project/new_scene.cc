@@ -67,9 +67,7 @@ std::optional<Sourced<StatedHeading>> OfferedHeading(const Footage& footage, boo
   ForEachSource(footage, [&](const FilmLook& look) {
     if (offered || !look.tags.view_heading_deg || look.looked_at.empty()) return;
     for (const tracker::MarkerObservation& seen : look.looked_at.front().markers) {
-      if (session::MarkerName{seen.detection.family, seen.detection.id} != footage.marker.name) {
-        continue;
-      }
+      if (session::NameOfDetected(seen.detection) != footage.marker.name) continue;
       const auto heading_deg =
           HeadingFromView(*look.tags.view_heading_deg, seen.pose.best.camera_from_marker, upright);
       if (!heading_deg) continue;

@@ -37,6 +37,15 @@ TEST(MarkerTracks, TakesTheDeclaredMarkerAsReferenceThoughAnotherIsSeenMore) {
   EXPECT_EQ(marker_tracks.ReferenceMarker()->id, 3);
 }
 
+TEST(MarkerTracks, GiveNoTrackToMarkersWithoutANumber) {
+  tracker::MarkerObservation unread = Seen(0, 0, "sg");
+  unread.detection.id.reset();
+  MarkerTracks marker_tracks(Declared(std::nullopt, "sg"));
+  marker_tracks.AddFrame(0, 0, {unread, unread});
+  EXPECT_TRUE(marker_tracks.tracks().empty());
+  EXPECT_EQ(marker_tracks.frames_with_duplicates(), 0);
+}
+
 TEST(MarkerTracks, TakesTheMarkerOfTheFamilySeenMostAsReference) {
   MarkerTracks marker_tracks(Declared(std::nullopt));
   marker_tracks.AddFrame(0, 0, {Seen(5, 1), Seen(3, 0), Seen(9, 0, "sg")});

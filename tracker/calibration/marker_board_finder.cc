@@ -18,7 +18,8 @@ class MarkerBoardFinder final : public BoardFinder {
     if (!observations) return std::nullopt;
     BoardView view;
     for (const MarkerObservation& observation : *observations) {
-      const int which = observation.detection.id - board_.first;
+      if (!observation.detection.id) continue;
+      const int which = *observation.detection.id - board_.first;
       if (!view.points.empty() && view.points.back() / 4 == which) continue;  // Detected twice.
       for (int i = 0; i < 4; ++i) {
         view.points.push_back(4 * which + i);

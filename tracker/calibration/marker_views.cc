@@ -81,15 +81,17 @@ Result<bool> MarkerViewCollector::Add(const std::string& name, ImageView<const s
 }
 
 int MarkerViewCollector::WhichMarker(const MarkerDetection& detection) {
+  if (!detection.id) return -1;
+  const int id = *detection.id;
   for (std::size_t i = 0; i < markers_.size(); ++i) {
-    if (markers_[i].id == detection.id && markers_[i].family == detection.family) {
+    if (markers_[i].id == id && markers_[i].family == detection.family) {
       return static_cast<int>(i);
     }
   }
-  Marker marker{detection.family, detection.id, {}, {}, -2};
+  Marker marker{detection.family, id, {}, {}, -2};
   if (detection.family == "sg") {
-    marker.pattern = SgMarkerPattern(detection.id);
-  } else if (const auto pattern = AprilTagPattern(detection.family, detection.id)) {
+    marker.pattern = SgMarkerPattern(id);
+  } else if (const auto pattern = AprilTagPattern(detection.family, id)) {
     marker.pattern = *pattern;
   } else {
     return -1;

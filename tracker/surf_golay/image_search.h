@@ -2,7 +2,9 @@
 
 // Internal: shared by the .cc files of this module; not installed.
 
+#include <cstddef>
 #include <optional>
+#include <vector>
 
 #include "tracker/surf_golay/found_markers.h"
 #include "tracker/surf_golay/sg_reader.h"
@@ -24,9 +26,14 @@ struct ImageSearch {
   /// there.
   std::optional<SgReading> DecodeAsGuessed(const BlockFitState& guess);
 
+  /// Markers whose number could not be decoded although their border is certain: it is open, and
+  /// matches pixel by pixel in this orientation alone. The readings' number has no meaning.
+  std::vector<FoundMarker> UnreadMarkers();
+
   SgReader reader;
   UprightTest upright;
   FoundMarkers found;
+  std::size_t unread_by_quads = 0;  ///< The first unread borders, which the fast path found.
 };
 
 }  // namespace pleinair::tracker

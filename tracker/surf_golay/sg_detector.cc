@@ -20,6 +20,21 @@ constexpr double kTrackedVisible = 0.12;
 /// have jumped and be tracked to a wrong place, rather than be occluded.
 constexpr double kCoveredAtOnce = 0.85;
 
+/// Without the number.
+Candidate CandidateOf(const SgReading& reading, DetectionPath path) {
+  Candidate candidate;
+  candidate.detection.family = "sg";
+  const SgCorners& corners =
+      reading.corners_through_noise ? *reading.corners_through_noise : reading.corners;
+  candidate.detection.corners_px = corners.px;
+  candidate.detection.visible_fraction = reading.visible_fraction;
+  candidate.detection.path = path;
+  candidate.detection.visibility_side = reading.blocks_along;
+  candidate.detection.visibility = reading.visible;
+  candidate.corner_covariance_px2 = corners.covariance_px2;
+  return candidate;
+}
+
 }  // namespace
 
 Result<std::unique_ptr<SgDetector>> SgDetector::Create(const CameraModel& camera,
@@ -69,19 +84,11 @@ std::vector<Candidate> SgDetector::Detect(ImageView<const std::uint8_t> grey) {
   ++frame_;
   std::vector<Candidate> candidates;
   for (const FoundMarker& found : image_.found.markers()) {
-    const SgReading& reading = found.reading;
-    Candidate candidate;
-    candidate.detection.family = "sg";
-    candidate.detection.id = reading.number;
-    const SgCorners& corners =
-        reading.corners_through_noise ? *reading.corners_through_noise : reading.corners;
-    candidate.detection.corners_px = corners.px;
-    candidate.detection.visible_fraction = reading.visible_fraction;
-    candidate.detection.path = found.path;
-    candidate.detection.visibility_side = reading.blocks_along;
-    candidate.detection.visibility = reading.visible;
-    candidate.corner_covariance_px2 = corners.covariance_px2;
-    candidates.push_back(std::move(candidate));
+    candidates.push_back(CandidateOf(found.reading, found.path));
+    candidates.back().detection.id = found.reading.number;
+  }
+  for (const FoundMarker& unread : image_.UnreadMarkers()) {
+    candidates.push_back(CandidateOf(unread.reading, unread.path));
   }
   return candidates;
 }
@@ -125,6 +132,7 @@ void SgDetector::TryQuad(const Quad& quad) {
 void SgDetector::FindFast(ImageView<const std::uint8_t> grey) {
   quads_.Detect(grey, &observed_quads_);
   for (const Quad& quad : observed_quads_) TryQuad(quad);
+  image_.unread_by_quads = image_.reader.UnreadBorders().size();
 }
 
 void SgDetector::SearchImage(ImageView<const std::uint8_t> grey) {

@@ -240,19 +240,33 @@ std::optional<SgReading> SgReader::DecodeFull(const BlockFitState& guess, int bo
   FitBorderThroughNoise(border_steps, &state);
   // Where nearly all of the border is occluded, it may have no block that matches as a whole.
   if (border_steps > 0 && VisibleBorder() < kMinVisibleBorder) return std::nullopt;
-  std::optional<DecodedNumber> number = DecodeNumber(state);
-  if (!number) {
-    if (VisibleBorder() > kOpenBorder) unread_borders_.push_back(state.modules_from_undistorted);
-    return std::nullopt;
+  const double visible_border = VisibleBorder();
+  const std::optional<DecodedNumber> number = DecodeNumber(state);
+  std::optional<SgReading> reading;
+  if (number) reading = MeasureDecoded(*number, state);
+  const bool confident =
+      reading && IsConfident(reading->confidence_bits, reading->visible_fraction, 0.0);
+  if (visible_border > kOpenBorder && !confident) {
+    if (number) {
+      BlockFitState border = state;
+      FitBorder(0, Detail::kFine, &border);
+    }
+    if (!numbers_.ShowAnotherNumber(patterns_.blank(), fitted_, state, visible_border))
+      unread_borders_.push_back(state.modules_from_undistorted);
   }
-  std::optional<SgReading> reading = Measure(number->number, state);
+  return reading;
+}
+
+std::optional<SgReading> SgReader::MeasureDecoded(DecodedNumber number,
+                                                  const BlockFitState& state) {
+  std::optional<SgReading> reading = Measure(number.number, state);
   if (!reading) return std::nullopt;
   if (reading->visible_fraction < kNearlyAllVisible) {
     // An occluder of the border has edges of its own that resemble the marker's. The decoded
     // content pulls the fit away from them, if that explains more.
     BlockFitState by_content = state;
-    if (FitContent(number->number, &by_content)) {
-      std::optional<SgReading> other = Measure(number->number, by_content);
+    if (FitContent(number.number, &by_content)) {
+      std::optional<SgReading> other = Measure(number.number, by_content);
       // A guess of another size has other blocks, which are not comparable.
       if (other && other->blocks_along != reading->blocks_along) DescribeAnew(&*other);
       if (other && Explains(*other, *reading)) reading = std::move(other);
@@ -263,13 +277,13 @@ std::optional<SgReading> SgReader::DecodeFull(const BlockFitState& guess, int bo
       kSameCells_modules) {
     // At the measured position the cells must decode to the same number.
     BlockFitState measured{reading->modules_from_undistorted, reading->blur_px};
-    const int read_first = number->number;
     FitBorder(0, Detail::kFine, &measured);
-    number = DecodeNumber(measured);
-    if (!number || number->number != read_first) return std::nullopt;
+    const std::optional<DecodedNumber> again = DecodeNumber(measured);
+    if (!again || again->number != number.number) return std::nullopt;
+    number = *again;
   }
-  reading->margin = number->margin;
-  reading->confidence_bits = number->confidence_bits;
+  reading->margin = number.margin;
+  reading->confidence_bits = number.confidence_bits;
   return reading;
 }
 
@@ -287,19 +301,33 @@ bool SgReader::IsNoisy() {
          noise_estimator_.Share(fitted_.fit, fitted_.observed) >= kPlainNoise;
 }
 
-void SgReader::MeasureThroughNoise(int number, BlockFitOptions options, BlockFitState state,
+void SgReader::MeasureThroughNoise(const MarkerPattern& pattern, MarkerPart part,
+                                   BlockFitOptions options, BlockFitState state,
                                    SgReading* reading) {
   fitted_.fit.UsePredictedVariance(&fitted_.observed);
   options.steps = kNoisySteps;
   // The result of the first fit is still to be validated.
-  if (!other_.fit.Run(patterns_.OfNumber(number), MarkerPart::kWhole, fitted_.observed,
-                      fitted_.fit.blocks_along(), options, &state)) {
+  if (!other_.fit.Run(pattern, part, fitted_.observed, fitted_.fit.blocks_along(), options,
+                      &state)) {
     return;
   }
   reading->corners_through_noise = CornersOfFit(lens_, other_.fit, state);
 }
 
 std::optional<SgReading> SgReader::Measure(int number, const BlockFitState& guess, double done_px) {
+  std::optional<SgReading> reading =
+      MeasurePattern(patterns_.OfNumber(number), MarkerPart::kWhole, guess, done_px);
+  if (reading) reading->number = number;
+  return reading;
+}
+
+std::optional<SgReading> SgReader::MeasureBorder(const BlockFitState& guess) {
+  windows_.SetHalvingsForNoise(0);
+  return MeasurePattern(patterns_.blank(), MarkerPart::kBorder, guess, kDone_px);
+}
+
+std::optional<SgReading> SgReader::MeasurePattern(const MarkerPattern& pattern, MarkerPart part,
+                                                  const BlockFitState& guess, double done_px) {
   const double side = windows_.SidePx(guess.modules_from_undistorted);
   if (side < kMinSide_px) return std::nullopt;
   PixelWindow window;
@@ -311,14 +339,13 @@ std::optional<SgReading> SgReader::Measure(int number, const BlockFitState& gues
   options.fit_light = true;
   options.label_blocks = false;
   options.done_px = done_px;
-  if (!fitted_.fit.Run(patterns_.OfNumber(number), MarkerPart::kWhole, fitted_.observed,
-                       FineBlocks(window, guess), options, &state)) {
+  if (!fitted_.fit.Run(pattern, part, fitted_.observed, FineBlocks(window, guess), options,
+                       &state)) {
     return std::nullopt;
   }
   SgReading reading;
-  reading.number = number;
   DescribeFit(lens_, fitted_.fit, state, &reading);
-  if (IsNoisy()) MeasureThroughNoise(number, options, state, &reading);
+  if (IsNoisy()) MeasureThroughNoise(pattern, part, options, state, &reading);
   return reading;
 }
 

@@ -66,13 +66,20 @@ class SgReader {
   }
 
   /// Unoccluded borders of this image (modules from undistorted pixels) whose cells gave no number.
+  /// Not those whose cells show a number that is not in use.
   std::span<const Mat3> UnreadBorders() const { return unread_borders_; }
+
+  /// Measures a marker of unknown number by its border alone. The reading's number has no meaning;
+  /// its visible share is that of the border.
+  std::optional<SgReading> MeasureBorder(const BlockFitState& guess);
 
   /// Measures a marker with a known number from a hypothesis accurate to about a pixel, until a
   /// step moves no corner farther than `done_px`.
-  std::optional<SgReading> Measure(int number, const BlockFitState& guess, double done_px = 0.01);
+  std::optional<SgReading> Measure(int number, const BlockFitState& guess,
+                                   double done_px = kDone_px);
 
  private:
+  static constexpr double kDone_px = 0.01;
   /// Longest side and maximum blur of a marker in coarse fits, and the block sizes of coarse fits
   /// and of measurements.
   static constexpr double kCoarseSide_px = 52.0, kCoarseBlur_px = 1.2;
@@ -86,6 +93,8 @@ class SgReader {
   double FitBorderThroughNoise(int steps, BlockFitState* state);
   /// Estimates and decodes the cells of the marker whose border was fitted last.
   std::optional<DecodedNumber> DecodeNumber(const BlockFitState& state);
+  /// Measures a marker whose number was decoded at a state, and verifies both.
+  std::optional<SgReading> MeasureDecoded(DecodedNumber number, const BlockFitState& state);
   /// Refines a state by a fit of the content alone.
   bool FitContent(int number, BlockFitState* state);
   /// Recomputes the appearance of a measured marker, in blocks that depend on the first reading
@@ -94,10 +103,13 @@ class SgReader {
   /// Whether the marker that was fitted last is so noisy that its pixels' own inverse variances are
   /// misleading.
   bool IsNoisy();
+  /// Measure() and MeasureBorder() without the number.
+  std::optional<SgReading> MeasurePattern(const MarkerPattern& pattern, MarkerPart part,
+                                          const BlockFitState& guess, double done_px);
   /// Repeats the last fit with inverse variances from the predicted light, and adds its corners to
   /// the reading. The first fit and the rest of the reading stay.
-  void MeasureThroughNoise(int number, BlockFitOptions options, BlockFitState state,
-                           SgReading* reading);
+  void MeasureThroughNoise(const MarkerPattern& pattern, MarkerPart part, BlockFitOptions options,
+                           BlockFitState state, SgReading* reading);
   /// Sets the weight of all pixels of the window outside the content to zero.
   void KeepContent(const PixelWindow& window, const Mat3& modules_from_undistorted);
   /// Measures a partly occluded marker again, without the occluded pixels.

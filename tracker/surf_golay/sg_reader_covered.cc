@@ -125,7 +125,7 @@ std::optional<SgReading> SgReader::MeasureBeneathCovers(int number, const BlockF
   if (IsNoisy()) {
     cover_.Lay(fitted_.fit, state.blur_px / window.Scale(), edges, &fitted_.observed,
                CoverMask::Dark::kBeyondNoise);
-    MeasureThroughNoise(number, options, state, &reading);
+    MeasureThroughNoise(marker, MarkerPart::kWhole, options, state, &reading);
   }
   cover_.RestoreWeights(&fitted_.observed);
   fitted_.fit.Evaluate(marker, MarkerPart::kWhole, fitted_.observed, blocks, state);

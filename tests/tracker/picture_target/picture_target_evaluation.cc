@@ -197,10 +197,10 @@ class Evaluation {
         const auto observations = tracker->Track(
             Part(photographs_[i].picture, 100 * static_cast<unsigned>(i) + part).view());
         for (const MarkerObservation& observation : *observations) {
-          if (source[observation.detection.id] == i) continue;
+          if (source[*observation.detection.id] == i) continue;
           ++falsely;
           std::printf("%s in %s, part %d: %.0f %% visible\n",
-                      photographs_[source[observation.detection.id]].file.c_str(),
+                      photographs_[source[*observation.detection.id]].file.c_str(),
                       photographs_[i].file.c_str(), part,
                       100.0 * observation.detection.visible_fraction);
         }

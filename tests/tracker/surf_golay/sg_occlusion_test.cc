@@ -1,8 +1,13 @@
 // Tests S-G markers that are partly covered, shadowed or under glare.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <functional>
+#include <random>
+#include <string>
 
 #include "tests/tracker/surf_golay/sg_test_scenes.h"
 #include "tracker/surf_golay/sg_layout.h"
@@ -202,6 +207,76 @@ TEST(SgOcclusion, ReadsTheNumberWithAFifthOfTheContentCovered) {
       }
     }
   }
+}
+
+/// Ten of the 25 cells, drawn at random.
+std::array<bool, 25> TwoFifthsOfTheCells(std::uint32_t seed) {
+  std::array<bool, 25> covered{};
+  std::fill_n(covered.begin(), 10, true);
+  std::mt19937 random(seed);
+  for (std::size_t i = covered.size() - 1; i > 0; --i) {
+    std::swap(covered[i], covered[random() % (i + 1)]);
+  }
+  return covered;
+}
+
+// The share and the pose errors are those of docs/measurements/tracker.md.
+TEST(SgOcclusion, SeesTheMarkerWithTwoFifthsOfTheContentCovered) {
+  constexpr std::array<double, 5> kLights{0.05, 0.12, kSkin, 0.5, 0.75};
+  const CameraModel camera = SgCamera();
+  const auto tracker = MakeSgTracker(camera, {.strategy = SgStrategy::kFast});
+  int unread = 0;
+  double corner_squares = 0.0, largest_rotation_deg = 0.0;
+  constexpr std::uint32_t kImages = 30;
+  for (std::uint32_t seed = 1; seed <= kImages; ++seed) {
+    const int number = static_cast<int>(797 * seed % 4096);
+    SCOPED_TRACE(testing::Message() << "seed " << seed << ", number " << number);
+    const std::array<bool, 25> covered = TwoFifthsOfTheCells(seed);
+    RenderedMarker marker = SgMarkerAt(camera, number, {161, 118}, 110, 25, 30.0 * seed, 15);
+    const auto on_cell = [&](Vec2 p) {
+      const int column = sg::CellIndex(static_cast<int>(std::floor(p.x)));
+      const int row = sg::CellIndex(static_cast<int>(std::floor(p.y)));
+      return column >= 0 && row >= 0 && covered[static_cast<std::size_t>(5 * row + column)];
+    };
+    Lay(on_cell, &marker, kLights[seed % kLights.size()]);
+    const auto found =
+        Track(tracker.get(),
+              RenderMarkers(camera, {marker}, {.blur_px = 0.5, .noise_codes = 1.0, .seed = seed}));
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0].detection.id.value_or(number), number) << "a false number";
+    const double corners_px = CornerRms(found[0], TrueCorners(camera, marker));
+    const double rotation_deg = RotationApart_deg(found[0].pose.best.camera_from_marker.rotation,
+                                                  marker.camera_from_marker.rotation);
+    EXPECT_LT(corners_px, 0.05);
+    EXPECT_LT(rotation_deg, 0.2);
+    if (found[0].detection.id) continue;
+    EXPECT_EQ(found[0].detection.path, DetectionPath::kFast);
+    EXPECT_GT(found[0].detection.visible_fraction, 0.95) << "of the border";
+    ++unread;
+    corner_squares += corners_px * corners_px;
+    largest_rotation_deg = std::max(largest_rotation_deg, rotation_deg);
+  }
+  EXPECT_GT(unread, 4) << "the images are to be too hard for the number";
+  RecordProperty("unread", unread);
+  RecordProperty("unread_corner_rms_px", std::to_string(std::sqrt(corner_squares / unread)));
+  RecordProperty("unread_largest_rotation_deg", std::to_string(largest_rotation_deg));
+}
+
+TEST(SgOcclusion, KeepsTheNumberOfATrackWhoseContentIsCovered) {
+  const CameraModel camera = SgCamera();
+  const auto still = MakeSgTracker(camera, {.strategy = SgStrategy::kFast});
+  const auto film = MakeSgTracker(camera, {.consecutive_frames = true});
+  RenderedMarker marker = SgMarkerAt(camera, 17, {161, 118}, 110, 25, 30, 15);
+  const RenderingOptions options{.blur_px = 0.5, .noise_codes = 1.0};
+  ASSERT_EQ(Track(film.get(), RenderMarkers(camera, {marker}, options)).size(), 1U);
+  Lay([](Vec2 p) { return Inwards(p.x) > 10 && Inwards(p.y) > 10; }, &marker);
+  const GreyImage covered = RenderMarkers(camera, {marker}, options);
+  const auto unread = Track(still.get(), covered);
+  ASSERT_EQ(unread.size(), 1U);
+  EXPECT_FALSE(unread[0].detection.id);
+  const auto tracked = Track(film.get(), covered);
+  ASSERT_EQ(tracked.size(), 1U);
+  EXPECT_EQ(tracked[0].detection.id, 17);
 }
 
 TEST(SgOcclusion, FindsMarkersCrossedByAHardShadowOfOneToSixteen) {

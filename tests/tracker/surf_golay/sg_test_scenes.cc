@@ -65,8 +65,9 @@ double RotationApart_deg(const Mat3& a, const Mat3& b) {
 std::string Summary(const std::vector<MarkerObservation>& observations) {
   std::string text;
   for (const MarkerObservation& observation : observations) {
-    text += (text.empty() ? "" : ", ") + std::to_string(observation.detection.id) + " " +
-            TrajectoryName(observation.detection.path) + " at " +
+    text += (text.empty() ? "" : ", ") +
+            (observation.detection.id ? std::to_string(*observation.detection.id) : "no number") +
+            " " + TrajectoryName(observation.detection.path) + " at " +
             std::to_string(std::lround(observation.detection.corners_px[0].x)) + "," +
             std::to_string(std::lround(observation.detection.corners_px[0].y)) + " " +
             std::to_string(std::lround(100.0 * observation.detection.visible_fraction)) + " %";

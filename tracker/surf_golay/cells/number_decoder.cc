@@ -1,6 +1,9 @@
 #include "tracker/surf_golay/cells/number_decoder.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <numbers>
+#include <span>
 
 #include "tracker/surf_golay/cells/cell_split.h"
 #include "tracker/surf_golay/cells/decoding_confidence.h"
@@ -33,26 +36,43 @@ std::optional<DecodedNumber> NumberDecoder::Decode(const MarkerPattern& blank,
                                                    const FittedPatch& border,
                                                    const BlockFitState& state,
                                                    double visible_border) {
+  return DecodeAmong(in_use_, blank, border, state, visible_border);
+}
+
+bool NumberDecoder::ShowAnotherNumber(const MarkerPattern& blank, const FittedPatch& border,
+                                      const BlockFitState& state, double visible_border) {
+  const std::span<const std::uint16_t> in_use = in_use_.ListedNumbers();
+  if (in_use.empty()) return false;
+  const auto any = DecodeAmong(any_number_, blank, border, state, visible_border);
+  return any && IsConfident(any->confidence_bits, visible_border, 0.0) &&
+         !std::ranges::binary_search(in_use, any->number);
+}
+
+std::optional<DecodedNumber> NumberDecoder::DecodeAmong(const SoftGolayDecoder& numbers,
+                                                        const MarkerPattern& blank,
+                                                        const FittedPatch& border,
+                                                        const BlockFitState& state,
+                                                        double visible_border) {
   std::optional<DecodedNumber> best;
   const auto decode = [&](const CellLikelihoods& likelihoods, double penalty_bits,
                           const CellLikelihoods* by_light = nullptr) {
-    const SoftGolayDecoding decoding = in_use_.Decode(likelihoods);
+    const SoftGolayDecoding decoding = numbers.Decode(likelihoods);
     const auto take = [&](int number, float margin, double bits) {
       if (margin < kMinMargin || (best && bits <= best->confidence_bits)) return;
       best = {number, margin, bits};
     };
     // The decision margin is reduced if many numbers that are not in use match better.
     take(decoding.number, decoding.margin - decoding.shortfall,
-         ConfidenceBits(likelihoods, decoding.number, in_use_.NumbersInUse()) - penalty_bits -
+         ConfidenceBits(likelihoods, decoding.number, numbers.NumbersInUse()) - penalty_bits -
              AmbiguityBits(by_light != nullptr ? *by_light : likelihoods, decoding.number,
                            any_number_));
     if (visible_border < kVisibleForLight || decoding.disagreements < kMinHidden ||
-        in_use_.NumbersInUse() > kMinNumbersForConfidence) {
+        numbers.NumbersInUse() > kMinNumbersForConfidence) {
       return;
     }
     // The border clearly is a marker's, and only one of the few possible numbers fits if something
     // like ink or paper lies on it.
-    const auto covered = ReadUnderCover(likelihoods, in_use_, any_number_);
+    const auto covered = ReadUnderCover(likelihoods, numbers, any_number_);
     if (covered && covered->apart_bits >= kMinApart_bits) {
       take(covered->number, static_cast<float>(kMarginPerBit * covered->apart_bits),
            covered->confidence_bits - penalty_bits);

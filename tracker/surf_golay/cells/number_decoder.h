@@ -40,7 +40,15 @@ class NumberDecoder {
   std::optional<DecodedNumber> Decode(const MarkerPattern& blank, const FittedPatch& border,
                                       const BlockFitState& state, double visible_border);
 
+  /// Whether the cells show a number that is not in use. False if all numbers are in use.
+  bool ShowAnotherNumber(const MarkerPattern& blank, const FittedPatch& border,
+                         const BlockFitState& state, double visible_border);
+
  private:
+  std::optional<DecodedNumber> DecodeAmong(const SoftGolayDecoder& numbers,
+                                           const MarkerPattern& blank, const FittedPatch& border,
+                                           const BlockFitState& state, double visible_border);
+
   SoftGolayDecoder in_use_;
   SoftGolayDecoder any_number_;  ///< Decoder of all 4,096 numbers.
   MarkerLightEstimator light_estimator_;
