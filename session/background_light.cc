@@ -1,15 +1,12 @@
 #include "session/background_light.h"
 
-#include <sys/resource.h>
-#include <sys/syscall.h>
-#include <unistd.h>
-
 #include <chrono>
 #include <utility>
 
 #include "compositor/photometry/sky_state.h"
 #include "scene/marker_heading.h"
 #include "scene/sun_over_place.h"
+#include "session/following/low_priority.h"
 #include "session/scene_renderer.h"
 
 namespace pleinair::session {
@@ -24,14 +21,6 @@ constexpr int kFewRays = 48;
 // Rays of the draft, which is in use for about a second (docs/measurements/live.md).
 constexpr int kDraftRays = 8;
 constexpr std::chrono::milliseconds kLookAround{100};
-// Below the priority of everything that a frame waits for.
-constexpr int kNice = 10;
-
-void LowerPriority() {
-  // For this thread and those that it starts: Linux counts niceness per thread. A refusal only
-  // costs time.
-  static_cast<void>(setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), kNice));
-}
 
 }  // namespace
 

@@ -7,7 +7,10 @@ void ExposureMeter::Read(ImageView<const std::uint8_t> rgb, const CameraModel& c
                          LinearRgb marker_shade, const FollowedLight& followed,
                          LightSummary* summary) {
   using ExposureScaleSource = LightSummary::ExposureScaleSource;
-  if (locked_ && (holds_ || !filter_.empty())) return;
+  if (locked_ && (holds_ || !filter_.empty())) {
+    summary->exposure_scale = last_ * followed.exposure;
+    return;
+  }
   is_used_ = true;
   const auto estimate = meter_ && camera_from_marker
                             ? meter_->Measure(rgb, camera, *camera_from_marker)
@@ -20,8 +23,8 @@ void ExposureMeter::Read(ImageView<const std::uint8_t> rgb, const CameraModel& c
   }
   summary->exposure_scale_source =
       filter_.empty() ? ExposureScaleSource::kGuess : ExposureScaleSource::kMarker;
-  summary->exposure_scale =
-      (filter_.empty() ? guess_ : filter_.ExposureScale()) * followed.exposure;
+  last_ = filter_.empty() ? guess_ : filter_.ExposureScale();
+  summary->exposure_scale = last_ * followed.exposure;
   if (!filter_.empty()) summary->exposure_scale_error = filter_.Error();
   summary->exposures.change = filter_.Change();
 }

@@ -26,8 +26,8 @@ class ExposureMeter {
   /// Sets the exposure scale that is used until a frame gives an estimate.
   void SetGuess(LinearRgb exposure_scale) { guess_ = exposure_scale; }
 
-  /// While locked, the exposure scale stays that of the last frame. If none was read before, it
-  /// stays the same once a frame has given an estimate.
+  /// While locked, the exposure scale stays that of the last frame, but for the light that is
+  /// followed. If none was read before, it stays the same once a frame has given an estimate.
   void SetLocked(bool locked) {
     if (locked && !locked_) holds_ = is_used_;
     locked_ = locked;
@@ -43,7 +43,7 @@ class ExposureMeter {
  private:
   std::optional<compositor::MarkerLightMeter> meter_;
   compositor::ExposureFilter filter_;
-  LinearRgb guess_;
+  LinearRgb guess_, last_;               // Last: of the reference light.
   bool locked_ = false, holds_ = false;  // Holds: what the last frame before the lock had.
   bool is_used_ = false;                 // A frame was read.
 };

@@ -1,7 +1,6 @@
 #include "session/light_follower.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "base/quantile.h"
 
@@ -18,7 +17,6 @@ constexpr double kLargest = 0.9;
 void LightFollower::Add(ImageView<const std::uint8_t> rgb, const Transform<Camera, Marker>& pose,
                         const scene::MarkerReflectance& marker, std::int64_t frame_index,
                         std::int64_t timestamp_ns) {
-  marker_ = marker;
   probes_.AddFrame(rgb, pose, marker, frame_index, timestamp_ns);
 }
 
@@ -32,16 +30,8 @@ void LightFollower::Fit(const sky::SkyModel& day, const Mat3& marker_from_world,
     if (reference.contains(frames[i].frame_index)) indices.push_back(i);
   }
   changes_ = compositor::FitLightChanges(frames, probes_.probes(), lights_, indices);
-  sun_on_marker_ = sky_on_marker_ = {};
-  for (std::size_t i = 0; i < probes_.probes().size(); ++i) {
-    const Vec3 p = probes_.probes()[i].point.xyz;
-    if (2.0 * std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)}) > marker_.board_size_m) {
-      continue;
-    }
-    const auto& light = lights_[i];
-    sun_on_marker_ = sun_on_marker_ + light.direct * light.sun_visibility + light.reflected;
-    sky_on_marker_ = sky_on_marker_ + light.sky;
-  }
+  on_marker_ = {};
+  for (std::size_t i = 0; i < lights_.size(); ++i) on_marker_.Add(probes_.probes()[i], lights_[i]);
 }
 
 compositor::ResponseEstimate LightFollower::EstimateResponse(
@@ -79,9 +69,7 @@ FollowedLight LightFollower::Of(std::int64_t frame_index) const {
   if (!changes_.changes) return light;
   light.exposure = found->sky;
   light.mix.sun = found->sun / found->sky;
-  const LinearRgb none{1e-9, 1e-9, 1e-9};  // Without probes on the marker both are 0.
-  light.marker_light = (sun_on_marker_ * found->sun + sky_on_marker_ * found->sky + none) /
-                       (sun_on_marker_ + sky_on_marker_ + none);
+  light.marker_light = on_marker_.Factor(found->sun, found->sky);
   return light;
 }
 

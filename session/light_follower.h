@@ -16,6 +16,7 @@
 #include "compositor/photometry/changes/light_probes.h"
 #include "compositor/photometry/response/response_fit.h"
 #include "scene/marker_reflectance.h"
+#include "session/following/light_on_marker.h"
 #include "sky/sky_model.h"
 
 namespace pleinair::session {
@@ -67,11 +68,10 @@ class LightFollower {
  private:
   const compositor::PhantomRays& phantoms_;
   compositor::LightProbes probes_;
-  scene::MarkerReflectance marker_;
   compositor::LightChanges changes_;
   std::vector<compositor::ProbeLight> lights_;  // Of the last fit.
   Vec3 to_sun_;                                 // The same, marker coordinates.
-  LinearRgb sun_on_marker_, sky_on_marker_;     // Of the last fit's light.
+  LightOnMarker on_marker_;                     // The same.
 };
 
 }  // namespace pleinair::session

@@ -185,6 +185,12 @@ bool Pipeline::MeterLightOn(const MarkerName& marker) {
 
 Result<ComposedFrame> Pipeline::Compose(ImageView<const std::uint8_t> rgb,
                                         const std::optional<CameraPose>& pose, UtcTime time) {
+  return Compose(rgb, pose, time, pose ? FollowedIn(pose->observation) : FollowedLight{});
+}
+
+Result<ComposedFrame> Pipeline::Compose(ImageView<const std::uint8_t> rgb,
+                                        const std::optional<CameraPose>& pose, UtcTime time,
+                                        const FollowedLight& followed) {
   ComposedFrame composed;
   composed.pose = pose;
   if (!pose) {
@@ -195,9 +201,9 @@ Result<ComposedFrame> Pipeline::Compose(ImageView<const std::uint8_t> rgb,
   const Observation& seen = pose->observation;
   compositor::MarkerVisibility visibility;
   if (hands_in_front_) visibility = VisibilityOf(scene_.marker, pose->marker, seen);
-  PLEINAIR_ASSIGN_OR_RETURN(composed.image,
-                            renderer_->Render(rgb, seen.camera_from_marker, time, visibility,
-                                              FollowedIn(seen), ShowsReferenceMarker(seen)));
+  PLEINAIR_ASSIGN_OR_RETURN(
+      composed.image, renderer_->Render(rgb, seen.camera_from_marker, time, visibility, followed,
+                                        ShowsReferenceMarker(seen)));
   if (!renderer_->DrawsObjects()) return composed;
   composed.light = renderer_->light();
   composed.times = renderer_->times();

@@ -151,6 +151,10 @@ class Pipeline {
   /// Errors: no memory on the graphics card.
   Result<ComposedFrame> Compose(ImageView<const std::uint8_t> rgb,
                                 const std::optional<CameraPose>& pose, UtcTime time);
+  /// The same. `followed`: how the frame's light differs from the estimated one, by a live session.
+  Result<ComposedFrame> Compose(ImageView<const std::uint8_t> rgb,
+                                const std::optional<CameraPose>& pose, UtcTime time,
+                                const FollowedLight& followed);
 
   /// Updates all that Compose() carries to later frames, and draws nothing: the result has no
   /// image. For frames that were composed before.

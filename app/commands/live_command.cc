@@ -49,6 +49,7 @@ constexpr const char* kLiveExamples =
     "      (arrange the objects, save with Ctrl+S, then 'pleinair replay site --scene "
     "site/moved.toml')\n"
     "  pleinair live --camera file:recordings/courtyard_midday --headless --lossless\n"
+    "  pleinair live --camera file:recordings/courtyard_midday --light-changes hold\n"
     "  pleinair live --camera file:recordings/courtyard_midday --headless --record out/take "
     "-o out/live\n"
     "      (poses to compare with those of 'pleinair replay out/take -o out/replayed')\n"
@@ -64,6 +65,7 @@ Result<void> CheckLiveOptions(const CLI::App& command, const LiveArguments& argu
                               bool is_file) {
   constexpr const char* kCameras = "cameras, not to recordings";
   constexpr const char* kWindow = "the window";
+  constexpr const char* kPaced = "sessions at a camera's pace, without --lossless";
   constexpr const char* kCoefficients =
       "daylight coefficients, which --lossless uses only with --light-cache";
   const bool coefficients = !arguments.lossless || !arguments.light.cache.empty();
@@ -77,7 +79,8 @@ Result<void> CheckLiveOptions(const CLI::App& command, const LiveArguments& argu
                 {"--loop", is_file, "recordings"},
                 {"--sky-division", coefficients, kCoefficients},
                 {"--convergence", coefficients, kCoefficients},
-                {"--rate", !arguments.lossless, "sessions at a camera's pace, without --lossless"},
+                {"--rate", !arguments.lossless, kPaced},
+                {"--light-changes", !arguments.lossless, kPaced},
                 {"--window", !arguments.headless, kWindow},
                 {"--ui-scale", !arguments.headless, kWindow},
                 {"--pictures", !arguments.headless, kWindow},
@@ -251,7 +254,7 @@ void AddLiveCommand(CLI::App& app, CommandResult& result) {
   CLI::Option* output =
       command
           ->add_option("-o,--output", a.output.folder,
-                       "Folder for what replay writes of a recording: poses/MARKER.tum and "
+                       "Folder for what replay writes of a recording: poses/MARKER.tum, light.csv and "
                        "detections.jsonl; markers are measured as in replay, some 20 ms each")
           ->type_name("FOLDER");
   command
@@ -270,6 +273,7 @@ void AddLiveCommand(CLI::App& app, CommandResult& result) {
   command->add_option("--screenshot", a.output.screenshot,
                       "At the end, write the last image as PNG");
   AddLightOptions(*command, a.light);
+  AddLightChangeOption(*command, "the time between two estimates, a minute", a.light);
   AddSolverOptions(*command, a.light);
   AddModelFileOptions(*command);
   command->add_flag("--shadow-debug", a.shadow_debug,

@@ -50,17 +50,7 @@ void AddReplayOptions(CLI::App& command, ReplayArguments& arguments) {
       ->type_name("FORM,...");
   command.add_option("--size", arguments.size, "Size of the output, WIDTHxHEIGHT in pixels");
   AddLightOptions(command, arguments.options.light);
-  command
-      .add_option_function<std::string>(
-          "--light-changes",
-          [&arguments](const std::string& mode) {
-            arguments.options.light.changes = mode == "hold" ? session::LightChangeMode::kHold
-                                                             : session::LightChangeMode::kFollow;
-          },
-          "follow: sun and sky are estimated in each frame, for passing clouds; hold: one light "
-          "for the whole recording")
-      ->check(CLI::IsMember({"follow", "hold"}))
-      ->default_str("follow");
+  AddLightChangeOption(command, "the whole recording", arguments.options.light);
   command
       .add_option("--fog", arguments.fog,
                   "Haze in front of the virtual objects and their shadows, as a multiple of the "

@@ -5,6 +5,7 @@
 
 #include "app/output/observed_trajectory.h"
 #include "app/output/trajectory_export.h"
+#include "base/atomic_file.h"
 
 namespace pleinair::app {
 
@@ -30,6 +31,7 @@ Result<std::unique_ptr<LiveOutput>> LiveOutput::Create(const Options& options,
 
 Result<void> LiveOutput::Add(const session::MarkerTracks& marker_tracks, std::int64_t frame_index,
                              std::int64_t timestamp_ns, const std::string& line) {
+  frames_.emplace_back(frame_index, timestamp_ns);
   for (const auto& [marker, observations] : marker_tracks.tracks()) {
     if (observations.empty() || observations.back().frame_index != frame_index) continue;
     // Poses count from the start of the recording, as the time of the line does.
@@ -42,14 +44,18 @@ Result<void> LiveOutput::Add(const session::MarkerTracks& marker_tracks, std::in
   return detections_.Add(line);
 }
 
-Result<void> LiveOutput::Finish(UtcTime start) {
-  auto written = Write(start);
+Result<void> LiveOutput::Finish(UtcTime start, const std::vector<LightRow>& light) {
+  auto written = Write(start, light);
   if (!written) return tl::make_unexpected(folder_.InTermsOfTarget(written.error()));
   return written;
 }
 
-Result<void> LiveOutput::Write(UtcTime start) {
+Result<void> LiveOutput::Write(UtcTime start, const std::vector<LightRow>& light) {
   PLEINAIR_RETURN_IF_ERROR(detections_.Finish());
+  if (!light.empty()) {
+    PLEINAIR_RETURN_IF_ERROR(WriteFileAtomically(folder_.staging() / "light.csv",
+                                                 LightCsv(WithMissingFrames(light, frames_))));
+  }
   PLEINAIR_RETURN_IF_ERROR(folder_.MakeFolder("poses"));
   exports::CameraTrajectory reference_markers;
   for (const auto& [marker, path] : paths_) {

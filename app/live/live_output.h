@@ -6,9 +6,11 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/output/detections_writer.h"
+#include "app/output/light_csv.h"
 #include "app/output/output_folder.h"
 #include "base/camera_model.h"
 #include "base/error.h"
@@ -21,9 +23,10 @@
 namespace pleinair::app {
 
 /// Writes the observations of a live session in the file formats of replay: detections.jsonl,
-/// poses/MARKER.tum and other trajectory formats. All files appear when the session ends.
-/// Trajectories stay in memory until then: about 140 bytes per frame and marker, 15 MB per hour at
-/// 30 Hz. For MCAP, each frame's line of detections.jsonl stays in memory, too.
+/// light.csv, poses/MARKER.tum and other trajectory formats. All files appear when the session
+/// ends. Trajectories stay in memory until then: about 140 bytes per frame and marker, 15 MB per
+/// hour at 30 Hz. A drawn frame's light takes 88 bytes more. For MCAP, each frame's line of
+/// detections.jsonl stays in memory, too.
 class LiveOutput {
  public:
   struct Options {
@@ -40,13 +43,14 @@ class LiveOutput {
   Result<void> Add(const session::MarkerTracks& marker_tracks, std::int64_t frame_index,
                    std::int64_t timestamp_ns, const std::string& line);
 
-  /// Writes the trajectories and commits all files. `start`: UTC of the first frame.
-  Result<void> Finish(UtcTime start);
+  /// Writes the trajectories and the light of the drawn frames, and commits all files. `start`: UTC
+  /// of the first frame.
+  Result<void> Finish(UtcTime start, const std::vector<LightRow>& light);
 
  private:
   LiveOutput(Options options, const CameraModel& camera, const scene::SceneDescription& scene,
              OutputFolder folder, DetectionsWriter detections);
-  Result<void> Write(UtcTime start);
+  Result<void> Write(UtcTime start, const std::vector<LightRow>& light);
 
   Options options_;
   CameraModel camera_;
@@ -54,7 +58,8 @@ class LiveOutput {
   OutputFolder folder_;
   DetectionsWriter detections_;
   std::map<session::MarkerName, exports::CameraTrajectory> paths_;
-  std::vector<exports::MarkersMessage> markers_seen_;  // Only for MCAP.
+  std::vector<std::pair<std::int64_t, std::int64_t>> frames_;  // Index and time stamp.
+  std::vector<exports::MarkersMessage> markers_seen_;          // Only for MCAP.
 };
 
 }  // namespace pleinair::app

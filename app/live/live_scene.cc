@@ -5,6 +5,58 @@
 #include "session/scene_marker.h"
 
 namespace pleinair::app {
+namespace {
+
+bool HaveSameRatio(const session::LightingRequest& a, const session::LightingRequest& b) {
+  return a.skies.source == b.skies.source && a.skies.scale == b.skies.scale;
+}
+
+/// True if a light shines on the same surfaces from the same sun and sky, whatever the rays.
+bool AreAlike(const session::BakedLighting& a, const session::BakedLighting& b) {
+  return &a.request.solver->phantoms() == &b.request.solver->phantoms() &&
+         HaveSameRatio(a.request, b.request) &&
+         a.request.marker.heading.value() == b.request.marker.heading.value() &&
+         session::IsNearSun(a.sun, b.sun);
+}
+
+}  // namespace
+
+void LiveScene::StartFollowing(const CameraModel& camera, const session::LightOptions& light,
+                               const CameraResponse& response) {
+  if (light.changes != session::LightChangeMode::kFollow) return;
+  changes_ = std::make_unique<session::LiveLight>(camera, response);
+}
+
+void LiveScene::Follow(const std::shared_ptr<const devices::Frame>& frame,
+                       const Transform<Camera, Marker>& camera_from_marker,
+                       const scene::MarkerReflectance& marker) {
+  if (changes_) changes_->Show(frame, camera_from_marker, marker);
+}
+
+bool LiveScene::ShowsOtherMoment() const {
+  const std::lock_guard lock(mutex_);
+  return edit_.later_s != 0.0 || edit_.latitude_deg != described_.place_time.latitude_deg ||
+         edit_.longitude_deg != described_.place_time.longitude_deg;
+}
+
+session::FollowedLight LiveScene::Followed() const {
+  if (!changes_ || ShowsOtherMoment()) return {};
+  return changes_->newest().light;
+}
+
+/// Draws with a new light, and refers the followed light to it.
+Result<void> LiveScene::Take(std::shared_ptr<const session::BakedLighting> light,
+                             session::SceneRenderer* renderer) {
+  if (changes_ && !ShowsOtherMoment() && !(followed_ && AreAlike(*followed_, *light))) {
+    const auto& solver = light->request.solver;
+    changes_->Use({{solver, &solver->phantoms()},
+                   {light, &light->daylight},
+                   light->marker_from_world,
+                   followed_ && !HaveSameRatio(followed_->request, light->request)});
+    followed_ = light;
+  }
+  return renderer->UseLight(std::move(light));
+}
 
 Result<void> LiveScene::StartLight(const CameraModel& camera, const session::LightOptions& light,
                                    UtcTime start, session::SceneRenderer* renderer) {
@@ -19,7 +71,7 @@ Result<void> LiveScene::StartLight(const CameraModel& camera, const session::Lig
     setup.marker_reflectance = session::MarkerReflectanceOf(marker, {*marker.family, *marker.id});
   }
   PLEINAIR_ASSIGN_OR_RETURN(light_, session::BackgroundLight::Create(std::move(setup)));
-  return renderer->UseLight(light_->Take());
+  return Take(light_->Take(), renderer);
 }
 
 void LiveScene::Edit(const session::SceneEdit& edit) {
@@ -54,12 +106,14 @@ Result<void> LiveScene::Update(UtcTime moment, session::SceneRenderer* renderer)
   }
   if (!light_) return {};
   light_->SetTime(moment);
-  if (auto light = light_->Take()) return renderer->UseLight(std::move(light));
+  if (auto light = light_->Take()) return Take(std::move(light), renderer);
   return {};
 }
 
 void LiveScene::Show(const std::shared_ptr<const devices::Frame>& frame,
                      const Transform<Camera, Marker>& camera_from_marker, UtcTime moment) {
+  // Frames under a cloud have another light than the one to which the changes refer.
+  if (changes_ && !changes_->newest().in_full_sun) return;
   if (light_) light_->Show(frame, camera_from_marker, moment);
 }
 
@@ -79,6 +133,7 @@ std::optional<session::BackgroundLight::Progress> LiveScene::light_progress() co
 }
 
 void LiveScene::Stop() {
+  if (changes_) changes_->Stop();
   if (light_) light_->Stop();
 }
 

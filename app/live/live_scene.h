@@ -6,6 +6,7 @@
 
 #include "app/live/live_detail.h"
 #include "base/camera_model.h"
+#include "base/camera_response.h"
 #include "base/error.h"
 #include "base/frames.h"
 #include "base/utc_time.h"
@@ -14,6 +15,9 @@
 #include "scene/marker_reflectance.h"
 #include "scene/scene_description.h"
 #include "session/background_light.h"
+#include "session/baked_lighting.h"
+#include "session/following/live_light.h"
+#include "session/light_follower.h"
 #include "session/light_options.h"
 #include "session/scene_edit.h"
 #include "session/scene_renderer.h"
@@ -27,6 +31,19 @@ class LiveScene {
             const session::LightOptions& light)
       : described_(described),
         edit_(session::UneditedScene(described, drawing, light.convergence)) {}
+
+  /// Begins to follow sun and sky by the frames of Follow(), unless `light` holds them. `camera`:
+  /// the lens of the frames. Call it before the frames are tracked.
+  void StartFollowing(const CameraModel& camera, const session::LightOptions& light,
+                      const CameraResponse& response);
+
+  /// Offers a tracked frame, to follow its light. May run on another thread than the rest.
+  void Follow(const std::shared_ptr<const devices::Frame>& frame,
+              const Transform<Camera, Marker>& camera_from_marker,
+              const scene::MarkerReflectance& marker);
+
+  /// How the light of the newest frame differs from that in use.
+  session::FollowedLight Followed() const;
 
   /// Computes the first light at `start`, passes it to the renderer, and continues in the
   /// background. Errors: the geometry.
@@ -61,8 +78,15 @@ class LiveScene {
   void Stop();
 
  private:
+  Result<void> Take(std::shared_ptr<const session::BakedLighting> light,
+                    session::SceneRenderer* renderer);
+  /// True if the scene is drawn in the light of another time or place than the frames'.
+  bool ShowsOtherMoment() const;
+
   const scene::SceneDescription described_;
   std::unique_ptr<session::BackgroundLight> light_;
+  std::unique_ptr<session::LiveLight> changes_;             // Null: light is not followed.
+  std::shared_ptr<const session::BakedLighting> followed_;  // To which the changes refer.
   mutable std::mutex mutex_;
   session::SceneEdit edit_;
   bool edited_ = false;

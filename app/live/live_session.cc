@@ -48,10 +48,13 @@ Result<void> LiveSession::Prepare() {
                             session::Pipeline::Create(options_.camera, options_.scene, pipeline));
   PLEINAIR_ASSIGN_OR_RETURN(sightings_, SightingFiles::Create(options_.detections, options_.output,
                                                               options_.camera, options_.scene));
+  session::SceneRenderer& renderer = pipeline_->renderer();
+  if (!options_.lossless && renderer.DrawsObjects()) {
+    scene_.StartFollowing(options_.camera, options_.light, renderer.response());
+  }
   threads_.emplace_back([this] { Capture(); });
   threads_.emplace_back([this] { Track(); });
   // The first frame is tracked meanwhile.
-  session::SceneRenderer& renderer = pipeline_->renderer();
   if (options_.lossless || !renderer.DrawsObjects()) return {};
   return scene_.StartLight(options_.camera, options_.light,
                            options_.start.value_or(FrameClock::Now()), &renderer);
@@ -137,6 +140,10 @@ Result<LiveSession::Tracked> LiveSession::TrackOne(FramePtr frame) {
   PLEINAIR_RETURN_IF_ERROR(
       sightings_.Add(tracked, tracks, frame->index, clock_.SinceFirst_ns(frame->timestamp_ns)));
   std::optional<session::CameraPose> pose = pipeline_->FollowIn(*frame);
+  if (pose && pose->observation.source == session::PoseSource::kMarker) {
+    scene_.Follow(frame, pose->observation.camera_from_marker,
+                  session::MarkerReflectanceOf(options_.scene.marker, pose->marker));
+  }
   return Tracked{std::move(frame), tracks.ReferenceMarker(), std::move(pose)};
 }
 
@@ -172,10 +179,15 @@ Result<std::optional<DrawnFrame>> LiveSession::DrawOne(Tracked tracked) {
       scene_.Show(tracked.frame, *drawn.camera_from_marker, moment);
     }
   }
-  PLEINAIR_ASSIGN_OR_RETURN(session::ComposedFrame composed,
-                            pipeline_->Compose(frame.rgb.view(), tracked.pose, moment));
+  PLEINAIR_ASSIGN_OR_RETURN(
+      session::ComposedFrame composed,
+      pipeline_->Compose(frame.rgb.view(), tracked.pose, moment, scene_.Followed()));
   drawn.picture = std::move(composed.image);
   drawn.light = renderer.light();
+  if (composed.light) {
+    sightings_.AddLight(
+        LightRowOf(frame.index, clock_.SinceFirst_ns(frame.timestamp_ns), *composed.light));
+  }
   counters_.Drawn(renderer.times(), MillisecondsSince(start));
   if (tracked.pose) counters_.Composed(1e-3 * MillisecondsSince(options_.began));
   if (options_.lossless) return drawn;

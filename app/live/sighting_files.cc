@@ -34,7 +34,7 @@ void SightingFiles::Finish(UtcTime start) {
   Result<void> finished;
   if (detections_) finished = detections_->Finish();
   detections_.reset();
-  if (finished && output_) finished = output_->Finish(start);
+  if (finished && output_) finished = output_->Finish(start, light_);
   output_.reset();
   if (!finished) trouble_ = finished.error();
 }

@@ -4,9 +4,11 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "app/live/live_output.h"
 #include "app/output/detections_writer.h"
+#include "app/output/light_csv.h"
 #include "base/camera_model.h"
 #include "base/error.h"
 #include "base/utc_time.h"
@@ -16,7 +18,7 @@
 
 namespace pleinair::app {
 
-/// The requested files with the tracker's observations in a live session.
+/// The requested files of a live session: the tracker's observations, and the light of frames.
 class SightingFiles {
  public:
   /// `detections`: one line per frame. Errors: files that cannot be written, a lens model that a
@@ -30,6 +32,11 @@ class SightingFiles {
   Result<void> Add(const session::TrackedFrame& tracked, const session::MarkerTracks& tracks,
                    std::int64_t frame_index, std::int64_t since_first_ns);
 
+  /// Adds the light of a drawn frame. May run on another thread than Add().
+  void AddLight(const LightRow& row) {
+    if (output_) light_.push_back(row);
+  }
+
   /// Ends the files. A second call has no effect. `start`: UTC of the first frame.
   void Finish(UtcTime start);
 
@@ -39,6 +46,7 @@ class SightingFiles {
  private:
   std::optional<DetectionsWriter> detections_;
   std::unique_ptr<LiveOutput> output_;
+  std::vector<LightRow> light_;  // Used by the drawing thread alone.
   std::optional<Error> trouble_;
 };
 

@@ -50,6 +50,22 @@ void AddLightOptions(CLI::App& command, session::LightOptions& options) {
                    "front of the virtual objects; its outline is found by its color");
 }
 
+void AddLightChangeOption(CLI::App& command, const std::string& of,
+                          session::LightOptions& options) {
+  command
+      .add_option_function<std::string>(
+          "--light-changes",
+          [&options](const std::string& mode) {
+            options.changes = mode == "hold" ? session::LightChangeMode::kHold
+                                             : session::LightChangeMode::kFollow;
+          },
+          "follow: sun and sky are estimated in each frame, for passing clouds; hold: one light "
+          "for " +
+              of)
+      ->check(CLI::IsMember({"follow", "hold"}))
+      ->default_str("follow");
+}
+
 void AddSolverOptions(CLI::App& command, session::LightOptions& options) {
   command
       .add_option("--sky-division", options.sky_division,

@@ -16,6 +16,9 @@ namespace pleinair::app {
 /// must outlive the command.
 void AddLightOptions(CLI::App& command, session::LightOptions& options);
 
+/// Adds --light-changes; `options` must outlive the command. `of`: what has one light with "hold".
+void AddLightChangeOption(CLI::App& command, const std::string& of, session::LightOptions& options);
+
 /// Adds the options for the accuracy of the light solver: --sky-division, --convergence and
 /// --light-patches.
 void AddSolverOptions(CLI::App& command, session::LightOptions& options);

@@ -19,6 +19,16 @@ LinearRgb Between(LinearRgb a, LinearRgb b, double share) {
 
 }  // namespace
 
+LightRow LightRowOf(std::int64_t frame_index, std::int64_t timestamp_ns,
+                    const session::LightSummary& light) {
+  const session::FrameLightSummary& frame = light.frame;
+  // The errors of the recording's light and of the change.
+  const double error =
+      std::hypot(light.measured.sun_to_sky_error.value_or(0.0), frame.followed.log_ratio_error);
+  return {frame_index,        timestamp_ns, frame.sun_on_white,
+          frame.sky_on_white, error,        frame.followed.source};
+}
+
 const char* LightSourceName(compositor::FrameLight::Source source) {
   switch (source) {
     case compositor::FrameLight::Source::kSurfaces:

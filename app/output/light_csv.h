@@ -7,6 +7,7 @@
 
 #include "base/vector.h"
 #include "compositor/photometry/changes/light_changes.h"
+#include "session/light_summary.h"
 
 namespace pleinair::app {
 
@@ -19,6 +20,10 @@ struct LightRow {
   double sun_to_sky_error = 0.0;  ///< Relative, one standard deviation.
   compositor::FrameLight::Source source = compositor::FrameLight::Source::kHeld;
 };
+
+/// The row of a composed frame. `timestamp_ns`: since the recording's start.
+LightRow LightRowOf(std::int64_t frame_index, std::int64_t timestamp_ns,
+                    const session::LightSummary& light);
 
 /// Names of the sources in files: "surfaces", "print", "total only", "held".
 const char* LightSourceName(compositor::FrameLight::Source source);

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -84,12 +83,6 @@ void AddPicture(const devices::Frame& frame, const RgbImage& composed, ReplayRep
        exports::EncodeJpeg(composed.view(), kReportPictureWidth_px, kReportJpegQuality)});
 }
 
-/// Relative error of a frame's sun over sky: that of the recording's light and of the change.
-double ErrorOf(const session::LightSummary& light) {
-  return std::hypot(light.measured.sun_to_sky_error.value_or(0.0),
-                    light.frame.followed.log_ratio_error);
-}
-
 Result<void> WriteLight(ReplayState& state) {
   const std::vector<LightRow>& rows = state.report.light_changes.rows;
   if (rows.empty()) return {};
@@ -118,9 +111,7 @@ Result<void> ComposeFrames(ReplayState& state) {
                         session::ComposedFrame composed) -> Result<void> {
     frames_seen.emplace_back(frame.index, frame.timestamp_ns);
     if (composed.light) {
-      const session::LightSummary& light = *composed.light;
-      rows.push_back({frame.index, frame.timestamp_ns, light.frame.sun_on_white,
-                      light.frame.sky_on_white, ErrorOf(light), light.frame.followed.source});
+      rows.push_back(LightRowOf(frame.index, frame.timestamp_ns, *composed.light));
       state.report.light = composed.light;
     }
     if (shown.contains(frame.index)) AddPicture(frame, composed.image, &state.report);

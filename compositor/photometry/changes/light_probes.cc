@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <utility>
 
 #include "base/parallel_for.h"
 #include "compositor/light/sampling.h"
@@ -104,7 +105,7 @@ void LightProbes::AddFrame(ImageView<const std::uint8_t> rgb, const Transform<Ca
                            const scene::MarkerReflectance& marker, std::int64_t frame_index,
                            std::int64_t timestamp_ns) {
   ProbedFrame frame{frame_index, timestamp_ns, {}, {}};
-  if (frames_.empty() && marker.size_m > 0.0) AddMarker(marker);
+  if (probes_.empty() && marker.size_m > 0.0) AddMarker(marker);
   const int step = std::max(2, static_cast<int>(std::sqrt(static_cast<double>(rgb.width()) *
                                                           rgb.height() / kProbesPerFrame)));
   const int columns = rgb.width() / step, rows = rgb.height() / step;
@@ -136,6 +137,13 @@ void LightProbes::AddFrame(ImageView<const std::uint8_t> rgb, const Transform<Ca
   readings_ += frame.probes.size();
   frames_.push_back(std::move(frame));
   if (readings_ > max_readings_) ThinOut();
+}
+
+ProbedFrame LightProbes::TakeFrame() {
+  ProbedFrame frame = std::move(frames_.back());
+  frames_.pop_back();
+  readings_ -= frame.probes.size();
+  return frame;
 }
 
 void LightProbes::SetResponse(const CameraResponse& response) {

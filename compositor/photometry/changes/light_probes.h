@@ -55,6 +55,10 @@ class LightProbes {
   /// Decodes the readings, and those of frames to come, by another response.
   void SetResponse(const CameraResponse& response);
 
+  /// Removes the last frame and returns it: for sessions without an end, which need no earlier one.
+  /// Call it after each AddFrame().
+  ProbedFrame TakeFrame();
+
   const std::vector<LightProbe>& probes() const { return probes_; }
   const std::vector<ProbedFrame>& frames() const { return frames_; }
 

@@ -1,0 +1,89 @@
+#include "session/following/live_light.h"
+
+#include <utility>
+
+#include "session/following/low_priority.h"
+
+namespace pleinair::session {
+
+LiveLight::LiveLight(const CameraModel& camera, const CameraResponse& response)
+    : follower_(camera, response) {
+  threads_.emplace_back([this] { Follow(); });
+  threads_.emplace_back([this] { TraceLights(); });
+}
+
+LiveLight::~LiveLight() { Stop(); }
+
+void LiveLight::Stop() {
+  {
+    const std::lock_guard lock(mutex_);
+    shared_.stop = true;
+    changed_.notify_all();
+  }
+  for (std::thread& thread : threads_) {
+    if (thread.joinable()) thread.join();
+  }
+}
+
+void LiveLight::Use(const LightReference& reference) {
+  const std::lock_guard lock(mutex_);
+  shared_.references.push_back(reference);
+}
+
+void LiveLight::Show(std::shared_ptr<const devices::Frame> frame,
+                     const Transform<Camera, Marker>& camera_from_marker,
+                     const scene::MarkerReflectance& marker) {
+  const std::lock_guard lock(mutex_);
+  shared_.shown = Shown{std::move(frame), camera_from_marker, marker};
+  changed_.notify_all();
+}
+
+LiveLight::Newest LiveLight::newest() const {
+  const std::lock_guard lock(mutex_);
+  return shared_.newest;
+}
+
+void LiveLight::Follow() {
+  LowerPriority();
+  std::unique_lock lock(mutex_);
+  while (true) {
+    changed_.wait(lock, [&] { return shared_.stop || shared_.shown; });
+    if (shared_.stop) return;
+    const Shown shown = *std::exchange(shared_.shown, std::nullopt);
+    const auto references = std::exchange(shared_.references, {});
+    const auto lit = std::exchange(shared_.lit, std::nullopt);
+    if (lit) shared_.lighting = false;
+    lock.unlock();
+    if (lit) follower_.AddLights(lit->reference, lit->lights);
+    for (const LightReference& reference : references) follower_.Use(reference);
+    follower_.Add(shown.frame->rgb.view(), shown.camera_from_marker, shown.marker,
+                  shown.frame->index, shown.frame->timestamp_ns);
+    auto to_light = follower_.ProbesWithoutLight();
+    Newest newest{follower_.Newest(), follower_.IsInFullSun()};
+    lock.lock();
+    newest.frames = shared_.newest.frames + 1;
+    shared_.newest = newest;
+    if (!to_light || shared_.lighting) continue;
+    shared_.to_light = std::move(to_light);
+    shared_.lighting = true;
+    changed_.notify_all();
+  }
+}
+
+void LiveLight::TraceLights() {
+  LowerPriority();
+  std::unique_lock lock(mutex_);
+  while (true) {
+    changed_.wait(lock, [&] { return shared_.stop || shared_.to_light; });
+    if (shared_.stop) return;
+    const ProbesToLight work = *std::exchange(shared_.to_light, std::nullopt);
+    lock.unlock();
+    Lights lights{work.reference,
+                  compositor::LightOn(work.probes, *work.light.phantoms, *work.light.day,
+                                      work.light.marker_from_world)};
+    lock.lock();
+    shared_.lit = std::move(lights);
+  }
+}
+
+}  // namespace pleinair::session
