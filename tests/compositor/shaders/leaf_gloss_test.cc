@@ -71,7 +71,7 @@ TEST(LeafGloss, TheTableHoldsItsIntegral) {
   for (const double gamma : {0.05, 0.15, 0.35, 0.6, 1.0}) {
     for (const double cosine : {0.1, 0.3, 0.6, 1.0}) {
       EXPECT_NEAR(leaf_glsl::LeafReflectance(static_cast<float>(cosine), static_cast<float>(gamma)),
-                  IntegrateLobe(cosine, gamma, 1.0).lobe, 0.008)
+                  IntegrateLobe(cosine, gamma, 1.0).lobe, 0.005)
           << gamma << ' ' << cosine;
     }
   }
@@ -81,15 +81,16 @@ TEST(LeafGloss, WhiteLeavesKeepTheirLight) {
   // A leaf without absorption, whatever share it transmits: inside, reflectance and transmittance
   // sum to 1 of what the surface admits.
   for (const double gloss : {0.0, 0.5, 1.0}) {
-    for (const double gamma : {0.05, 0.1, 0.2, 0.35, 0.6, 1.0}) {
+    for (const double gamma : {0.05, 0.08, 0.12, 0.2, 0.35, 0.6, 0.75, 1.0}) {
       const double mean =
           leaf_glsl::LeafAdmitsMean(static_cast<float>(gamma), static_cast<float>(gloss));
-      for (const double cosine : {0.05, 0.2, 0.5, 0.8, 1.0}) {
+      for (const double cosine : {0.02, 0.05, 0.12, 0.2, 0.3, 0.5, 0.8, 1.0}) {
         const LobeSum sum = IntegrateLobe(cosine, gamma, gloss);
         const double leaves = leaf_glsl::LeafAdmits(
             static_cast<float>(cosine), static_cast<float>(gamma), static_cast<float>(gloss));
-        EXPECT_NEAR(sum.lobe + leaves * sum.admitted / mean, 1.0, 0.008)
-            << gloss << ' ' << gamma << ' ' << cosine;
+        const double kept = sum.lobe + leaves * sum.admitted / mean;
+        EXPECT_GE(kept, 0.995) << gloss << ' ' << gamma << ' ' << cosine;
+        EXPECT_LE(kept, 1.001) << gloss << ' ' << gamma << ' ' << cosine;
       }
     }
   }
