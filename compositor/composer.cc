@@ -14,7 +14,7 @@
 
 #include "compositor/embedded_shaders.h"
 #include "compositor/light/changing/changing_bodies.h"
-#include "compositor/passes/frame_light.h"
+#include "compositor/passes/frame_daylight.h"
 #include "compositor/passes/frame_uniforms.h"
 #include "compositor/passes/glm_vectors.h"
 #include "compositor/passes/object_pass.h"
@@ -127,7 +127,7 @@ class GlComposer : public Composer {
   Canvas canvas_;
   std::optional<CameraLook> look_;
   ShadowRatioPass::ShadowOptions unmodelled_;
-  FrameLight light_;
+  FrameDaylight light_;
   Passes passes_;
   SceneSurfaces surfaces_;
   SceneShadows shadows_;
@@ -141,7 +141,7 @@ Result<std::unique_ptr<Composer>> GlComposer::Make(const CameraModel& camera,
   RegisterShaders();
   std::unique_ptr<GlComposer> composer(new GlComposer(camera, std::move(context)));
   GlComposer& c = *composer;
-  PLEINAIR_ASSIGN_OR_RETURN(c.light_, FrameLight::Create());
+  PLEINAIR_ASSIGN_OR_RETURN(c.light_, FrameDaylight::Create());
   PLEINAIR_ASSIGN_OR_RETURN(c.passes_.ratio, ShadowRatioPass::Create());
   PLEINAIR_ASSIGN_OR_RETURN(c.surfaces_, SceneSurfaces::Create(scene));
   PLEINAIR_ASSIGN_OR_RETURN(c.changing_, ChangingBodies::Create(scene));

@@ -1,4 +1,4 @@
-#include "compositor/passes/frame_light.h"
+#include "compositor/passes/frame_daylight.h"
 
 #include <epoxy/gl.h>
 
@@ -9,8 +9,8 @@
 #include "compositor/passes/glm_vectors.h"
 
 namespace pleinair::compositor {
-Result<FrameLight> FrameLight::Create() {
-  FrameLight light;
+Result<FrameDaylight> FrameDaylight::Create() {
+  FrameDaylight light;
   PLEINAIR_ASSIGN_OR_RETURN(
       light.environment_,
       gl::GlTexture::Create2DArray(GL_RGB32F, EnvironmentMap::kWidth, EnvironmentMap::kHeight,
@@ -20,7 +20,7 @@ Result<FrameLight> FrameLight::Create() {
   return light;
 }
 
-void FrameLight::SetDay(const sky::SkyModel& day, const Mat3& marker_from_world) {
+void FrameDaylight::SetDay(const sky::SkyModel& day, const Mat3& marker_from_world) {
   SetSun(day, marker_from_world);
   air_ = AerialFog(day, marker_from_world);
   up_ = ToGlm(marker_from_world * Vec3{0.0, 0.0, 1.0});
@@ -29,12 +29,12 @@ void FrameLight::SetDay(const sky::SkyModel& day, const Mat3& marker_from_world)
   mix_ = {};
 }
 
-void FrameLight::SetSun(const sky::SkyModel& day, const Mat3& marker_from_world) {
+void FrameDaylight::SetSun(const sky::SkyModel& day, const Mat3& marker_from_world) {
   to_sun_ = marker_from_world * day.ToSun().xyz;
   sun_normal_lux_ = day.SunNormalIrradiance();
 }
 
-void FrameLight::SetEnvironment(const sky::SkyModel& day, const Mat3& marker_from_world,
+void FrameDaylight::SetEnvironment(const sky::SkyModel& day, const Mat3& marker_from_world,
                                 LinearRgb from_below) {
   const EnvironmentMap map = BuildEnvironmentMap(day, marker_from_world, from_below);
   for (int level = 0; level < EnvironmentMap::kLevels; ++level) {
@@ -42,7 +42,7 @@ void FrameLight::SetEnvironment(const sky::SkyModel& day, const Mat3& marker_fro
   }
 }
 
-Result<void> FrameLight::SetTransmittance(
+Result<void> FrameDaylight::SetTransmittance(
     std::shared_ptr<const SunTransmittanceMap> transmittance) {
   if (transmittance == transmittance_) return {};
   PLEINAIR_RETURN_IF_ERROR(Upload(transmittance ? *transmittance : SunTransmittanceMap{}));
@@ -50,7 +50,7 @@ Result<void> FrameLight::SetTransmittance(
   return {};
 }
 
-Result<void> FrameLight::Upload(const SunTransmittanceMap& transmittance) {
+Result<void> FrameDaylight::Upload(const SunTransmittanceMap& transmittance) {
   const bool empty = transmittance.share.empty();
   PLEINAIR_ASSIGN_OR_RETURN(transmittance_texture_,
                             gl::GlTexture::Create2D(GL_R16F, empty ? 1 : transmittance.width,
@@ -60,7 +60,7 @@ Result<void> FrameLight::Upload(const SunTransmittanceMap& transmittance) {
   return {};
 }
 
-void FrameLight::SetUniforms(FrameUniforms* frame) const {
+void FrameDaylight::SetUniforms(FrameUniforms* frame) const {
   if (HasSun()) frame->to_sun = ToGlm(to_sun_);
   frame->sun_normal_lux = ToGlm(SunNow());
   // In the night both are 0.

@@ -17,11 +17,11 @@ namespace pleinair::compositor {
 /// The daylight that shades the surfaces of a frame: sun, air, mirrored environment, and the shade
 /// of unmodelled geometry. Marker coordinates; light in lux, linear Rec.709. Needs a current OpenGL
 /// context; move-only.
-class FrameLight {
+class FrameDaylight {
  public:
-  FrameLight() = default;
+  FrameDaylight() = default;
   /// Makes a light without a sun. Errors (system): no memory.
-  static Result<FrameLight> Create();
+  static Result<FrameDaylight> Create();
 
   /// Sets sun, sky and air, with a mix of 1.
   void SetDay(const sky::SkyModel& day, const Mat3& marker_from_world);
