@@ -135,6 +135,26 @@ TEST(Tessellation, InterpolatesAllAttributesWhereverEdgesAreSplit) {
   }
 }
 
+TEST(PatchScene, ReflectsTheMeanOfVertexColorsByArea) {
+  // A white square, and beside it a small red one with most of the vertices.
+  auto object = testing::Ground(0.02, {1.0F, 1.0F, 1.0F}, false, 0.3);
+  Mesh& mesh = object->meshes[0];
+  mesh.details.resize(4);
+  for (int i = 0; i < 16; ++i) {
+    const double x = 0.03 + 0.001 * (i % 4), y = 0.001 * static_cast<double>(i / 4);
+    testing::AddQuad(
+        &mesh,
+        {{{x, y, 0.3}, {x + 0.001, y, 0.3}, {x + 0.001, y + 0.001, 0.3}, {x, y + 0.001, 0.3}}});
+  }
+  mesh.details.resize(mesh.positions.size(), VertexDetail{{}, {1.0F, 0.0F, 0.0F, 1.0F}});
+  const auto scene = PatchScene::Create({Object(object)}, LightSolverOptions{});
+  ASSERT_TRUE(scene) << scene.error().Message();
+  ASSERT_EQ(scene->mesh_sides.size(), 2U);  // Front and back.
+  // 16 mm² of red, 1,600 mm² of white.
+  EXPECT_NEAR(scene->mesh_sides[0].albedo[0], 1.0F, 1e-4);
+  EXPECT_NEAR(scene->mesh_sides[0].albedo[1], 1.0 / 1.01, 1e-3);
+}
+
 TEST(Tessellation, StaysBelowItsLimit) {
   std::vector<SurfaceMesh> surfaces = Scene();
   Tessellate({.near_edge_m = 0.002, .growth_per_m = 0.01, .max_vertices = 3000}, &surfaces);
