@@ -104,7 +104,9 @@ void AffectedTriangles::Sort(const SunWindow& window, const SunFootprint& object
       if (reductions.linear_shadow_ratio) {
         linear_ratios = LinearRatioOf(i, window.to_sun, in_sun ? sun_normal_lux : glm::vec3(0.0F));
       }
-      if (linear_ratios) {
+      if (linear_ratios && reductions.affected_triangles && linear_ratios->IsOne(kNoticeable)) {
+        change = kNothing;
+      } else if (linear_ratios) {
         linear_ratios_.push_back(*linear_ratios);
         linear_corners_.push_back({triangles_[i], triangles_[i + 1], triangles_[i + 2]});
       } else {

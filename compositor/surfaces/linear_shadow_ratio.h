@@ -17,6 +17,11 @@ struct LinearShadowRatio {
 
   static constexpr int kTexels = 5;
 
+  /// Returns whether the ratio differs from 1 by at most `difference`.
+  bool IsOne(float difference) const {
+    return range.x >= 1.0F - difference && range.y <= 1.0F + difference;
+  }
+
   /// Ratio of light with to light without objects, where objects do not shade the sun. Twin of
   /// DifferentialRatio() in shaders/differential.glsl. `sun`: sunlight on the surface that the
   /// phantoms transmit, in the unit of the ambient light.

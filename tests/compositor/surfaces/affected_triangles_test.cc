@@ -114,6 +114,20 @@ TEST(AffectedTriangles, KnowTheRatioWherePhantomsLeaveAllOfTheSunOrNone) {
               1e-5);
 }
 
+TEST(AffectedTriangles, AreNotThoseWhoseChangeOfTheSkyTheSunOutshines) {
+  LitMesh mesh = Row();
+  for (auto& light : mesh.ambient_with) light = {995.0F, 995.0F, 995.0F};
+  mesh.sunlight.to_sun = {0.0F, 0.0F, 1.0F};
+  mesh.sunlight.by_triangle = {SunVisibility::kAll, SunVisibility::kNone, SunVisibility::kNone,
+                               SunVisibility::kAll};
+  AffectedTriangles triangles(mesh);
+  triangles.Sort(kWindow, {}, kSun);  // 5 of 3,000 to 5,000, and 5 of 1,000.
+  EXPECT_THAT(triangles.ends(), ElementsAre(3, 3, 6, 12));
+  EXPECT_THAT(triangles.indices(), ElementsAre(3, 4, 5, 6, 7, 8, 0, 1, 2, 9, 10, 11));
+  triangles.Sort(kWindow, {}, kSun, {.affected_triangles = false});
+  EXPECT_THAT(triangles.ends(), ElementsAre(3, 3, 12, 12));
+}
+
 TEST(AffectedTriangles, AreAllThatTheSunReachesWhereItsWindowIsUnknown) {
   AffectedTriangles triangles(Row());
   triangles.Sort(SunWindow::Everywhere({0, 0, 1}), {}, kSun);
