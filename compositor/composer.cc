@@ -113,8 +113,8 @@ class GlComposer : public Composer {
   Result<const SurfacePrograms*> ProgramsFor(const FrameUniforms& frame);
   Result<void> SortSurfaces();
   Result<shadows::View> UpdateScene(const Transform<Camera, Marker>& camera_from_marker);
-  Result<void> DrawScene(const SurfacePrograms& programs, const shadows::View& view,
-                         const FrameUniforms& frame);
+  void DrawScene(const SurfacePrograms& programs, const FrameUniforms& frame,
+                 const AffectedTiles& tiles);
   FrameUniforms FrameOf(const shadows::View& view,
                         const Transform<Camera, Marker>& camera_from_marker,
                         LinearRgb exposure_scale) const;
@@ -303,23 +303,22 @@ Result<void> GlComposer::SortSurfaces() {
   return surfaces_.SortObjects(light_.HasSun() ? ToGlm(light_.to_sun()) : glm::vec3(0.0F));
 }
 
-Result<void> GlComposer::DrawScene(const SurfacePrograms& programs, const shadows::View& view,
-                                   const FrameUniforms& frame) {
+void GlComposer::DrawScene(const SurfacePrograms& programs, const FrameUniforms& frame,
+                           const AffectedTiles& tiles) {
   glEnable(GL_DEPTH_TEST);
-  glDepthFunc(GL_LESS);
   // Open surfaces have one triangle per side. Clockwise, because image rows run downwards.
   glEnable(GL_CULL_FACE);
   glFrontFace(GL_CW);
-  passes_.ratio.DrawSurfaces(canvas_.targets, surfaces_, frame);
-  passes_.objects.DrawSurfaces(canvas_.targets, surfaces_, frame);
+  passes_.ratio.DrawSurfaces(canvas_.targets, surfaces_, frame, tiles.all.Bounds());
+  passes_.objects.DrawSurfaces(canvas_.targets, surfaces_, frame, tiles.objects.Bounds());
   glDisable(GL_CULL_FACE);
   light_.transmittance().Bind(5);
   passes_.objects.Draw(canvas_.targets, surfaces_, programs, frame, light_.environment(),
-                       PictureOf(canvas_.camera, view, surfaces_.placement().object_bounds()));
+                       tiles.objects.Rectangles());
   canvas_.picture.BindForShading(2, 3, 4);
-  passes_.ratio.Draw(canvas_.targets, surfaces_, programs, frame, unmodelled_);
+  passes_.ratio.Draw(canvas_.targets, surfaces_, programs, frame, unmodelled_,
+                     tiles.all.Rectangles());
   glDisable(GL_DEPTH_TEST);
-  return {};
 }
 
 /// Requires classified surfaces.
@@ -379,12 +378,15 @@ Result<RgbImage> GlComposer::Compose(ImageView<const std::uint8_t> rgb,
   PLEINAIR_ASSIGN_OR_RETURN(const shadows::View view, UpdateScene(camera_from_marker));
   const FrameUniforms frame = FrameOf(view, camera_from_marker, exposure_scale);
   PLEINAIR_ASSIGN_OR_RETURN(const SurfacePrograms* programs, ProgramsFor(frame));
-  PLEINAIR_RETURN_IF_ERROR(DrawScene(*programs, view, frame));
-  canvas_.picture.Draw(canvas_.targets);
+  AffectedTiles tiles =
+      surfaces_.TilesOf(ProjectionOf(canvas_.camera, view, canvas_.picture.Spread_px()));
+  if (options_.show_shadow_maps) tiles.all.IncludeAll();
+  DrawScene(*programs, frame, tiles);
+  canvas_.picture.Draw(canvas_.targets, tiles.all);
   if (options_.show_shadow_maps && light_.HasSun()) {
     PLEINAIR_RETURN_IF_ERROR(DrawDebugView(view));
   }
-  return canvas_.picture.Read();
+  return canvas_.picture.Read(rgb);
 }
 
 }  // namespace

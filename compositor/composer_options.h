@@ -20,9 +20,11 @@ struct DrawReductions {
   bool linear_shadow_ratio = true;  ///< Interpolates the ratio where it is linear.
   /// No shadow map on object triangles that face away from the sun.
   bool sun_facing_triangles = true;
+  /// Draws only tiles of the image that objects may affect, and copies the others.
+  bool affected_tiles = true;
 
   /// Everything is drawn.
-  static constexpr DrawReductions None() { return {false, false, false, false, false}; }
+  static constexpr DrawReductions None() { return {false, false, false, false, false, false}; }
   bool operator==(const DrawReductions&) const = default;
 };
 

@@ -82,4 +82,14 @@ void GlFramebuffer::ReadPixels(int color_index, GLenum format, GLenum type, void
   glReadPixels(0, 0, width_, height_, format, type, pixels);
 }
 
+void GlFramebuffer::ReadRectangle(int x, int y, int width, int height, GLenum format, GLenum type,
+                                  int row_pixels, void* pixels) const {
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, id());
+  glNamedFramebufferReadBuffer(id(), GL_COLOR_ATTACHMENT0);
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glPixelStorei(GL_PACK_ROW_LENGTH, row_pixels);
+  glReadPixels(x, y, width, height, format, type, pixels);
+  glPixelStorei(GL_PACK_ROW_LENGTH, 0);
+}
+
 }  // namespace pleinair::gl

@@ -44,6 +44,11 @@ class GlFramebuffer {
   /// Reads a color attachment; rows from the bottom, as in GL, without padding.
   void ReadPixels(int color_index, GLenum format, GLenum type, void* pixels) const;
 
+  /// Reads a rectangle of color attachment 0 into an image with `row_pixels` pixels per row, where
+  /// `pixels` is the place of the rectangle's first pixel.
+  void ReadRectangle(int x, int y, int width, int height, GLenum format, GLenum type,
+                     int row_pixels, void* pixels) const;
+
   int width() const { return width_; }
   int height() const { return height_; }
   GLuint id() const { return handle_.id(); }

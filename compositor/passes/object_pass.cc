@@ -38,23 +38,24 @@ Result<ObjectPass> ObjectPass::Create(bool detailed) {
 }
 
 void ObjectPass::DrawSurfaces(const RenderTargets& targets, const SceneSurfaces& surfaces,
-                              const FrameUniforms& frame) const {
+                              const FrameUniforms& frame, const PixelRect& within) const {
   const bool textured = surfaces.materials().HasTextures();
   const gl::GlProgram& id_program = surfaces.materials().HasAlpha() ? alpha_id_program_
                                     : textured                      ? textured_id_program_
                                                                     : id_program_;
   targets.BeginObjectIds(textured);
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(within.x, within.y, within.width, within.height);
   id_program.Use();
   id_program.Set("u_clip_from_marker", frame.clip_from_marker);
   id_program.Set("u_samples", targets.samples());
   surfaces.DrawObjects(id_program);
+  glDisable(GL_SCISSOR_TEST);
 }
 
 void ObjectPass::Draw(const RenderTargets& targets, const SceneSurfaces& surfaces,
                       const SurfacePrograms& programs, const FrameUniforms& frame,
-                      const gl::GlTexture& environment, const PixelRect& within) const {
-  glEnable(GL_SCISSOR_TEST);
-  glScissor(within.x, within.y, within.width, within.height);
+                      const gl::GlTexture& environment, std::span<const PixelRect> within) const {
   no_attributes_.Bind();
   surfaces.object_triangles().Bind();
   surfaces.object_materials().Bind(2);
@@ -65,11 +66,9 @@ void ObjectPass::Draw(const RenderTargets& targets, const SceneSurfaces& surface
   sort_program_.Set("u_samples", targets.samples());
   sort_program_.Set("u_eye_m", frame.eye_m);
   frame.SetRays(sort_program_);
-  glDrawArrays(GL_TRIANGLES, 0, 3);
-  glDisable(GL_SCISSOR_TEST);
+  DrawWithin(within);
 
   targets.BeginObjects();
-  glEnable(GL_SCISSOR_TEST);
   glDepthFunc(GL_EQUAL);
   glDepthMask(GL_FALSE);
   targets.seen().Bind(0);
@@ -90,11 +89,10 @@ void ObjectPass::Draw(const RenderTargets& targets, const SceneSurfaces& surface
     frame.SetFog(program);
     frame.SetEnvironment(program);
     frame.SetSunTransmittance(program);
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    DrawWithin(within);
   }
   glDepthMask(GL_TRUE);
   glDepthFunc(GL_LESS);
-  glDisable(GL_SCISSOR_TEST);
 }
 
 }  // namespace pleinair::compositor

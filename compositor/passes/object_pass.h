@@ -1,10 +1,12 @@
 #pragma once
 
+#include <span>
+
 #include "base/error.h"
 #include "compositor/passes/frame_uniforms.h"
 #include "compositor/passes/render_targets.h"
-#include "compositor/passes/scene_view.h"
 #include "compositor/passes/surface_programs.h"
+#include "compositor/surfaces/image_tiles.h"
 #include "compositor/surfaces/scene_surfaces.h"
 #include "gl/program.h"
 #include "gl/texture.h"
@@ -22,17 +24,19 @@ class ObjectPass {
   static Result<ObjectPass> Create(bool detailed);
 
   /// Draws the objects' triangle numbers into the samples. The real surfaces' numbers and depth of
-  /// ShadowRatioPass::DrawSurfaces() must be in place. Binds textures to unit 0.
+  /// ShadowRatioPass::DrawSurfaces() must be in place. `within` bounds what Draw() draws. Binds
+  /// textures to unit 0.
   void DrawSurfaces(const RenderTargets& targets, const SceneSurfaces& surfaces,
-                    const FrameUniforms& frame) const;
+                    const FrameUniforms& frame, const PixelRect& within) const;
 
-  /// Shades the surfaces of DrawSurfaces() into targets.objects(). `within` bounds the objects in
-  /// the image. Requires bound shadow maps, the sun transmittance map at unit 5, GL_DEPTH_TEST
-  /// enabled and GL_CULL_FACE disabled. Binds its own textures to units 0 to 4, 6, 7, 16 and 17.
-  /// Afterwards depth writes are on, depth tests use GL_LESS, and the scissor test is off.
+  /// Shades the surfaces of DrawSurfaces() into targets.objects(). `within`: all pixels with
+  /// objects, in disjoint rectangles. Requires bound shadow maps, the sun transmittance map at unit
+  /// 5, GL_DEPTH_TEST enabled and GL_CULL_FACE disabled. Binds its own textures to units 0 to 4, 6,
+  /// 7, 16 and 17. Afterwards depth writes are on, depth tests use GL_LESS, and the scissor test is
+  /// off.
   void Draw(const RenderTargets& targets, const SceneSurfaces& surfaces,
             const SurfacePrograms& programs, const FrameUniforms& frame,
-            const gl::GlTexture& environment, const PixelRect& within) const;
+            const gl::GlTexture& environment, std::span<const PixelRect> within) const;
 
  private:
   gl::GlProgram id_program_, textured_id_program_, alpha_id_program_, sort_program_;

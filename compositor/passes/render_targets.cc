@@ -98,6 +98,9 @@ void RenderTargets::BeginAirlight() const { framebuffers_.ratio_and_airlight.Bin
 
 void RenderTargets::BeginPass(bool back) const {
   (back ? framebuffers_.pass_back : framebuffers_.pass).Bind();
+  if (back) return;
+  framebuffers_.pass.ClearColor(0, 1, 1, 1, 1);
+  framebuffers_.pass.ClearColor(1, 0, 0, 0, 0);
 }
 
 }  // namespace pleinair::compositor

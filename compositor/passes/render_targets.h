@@ -29,8 +29,8 @@ class RenderTargets {
   void BeginRatio() const;
   /// After BeginRatio(): directs drawing to the ratio (color 0) and to objects() (color 1).
   void BeginAirlight() const;
-  /// Directs drawing to the targets of a pass over ratio() and objects(). If `back`, from those
-  /// into ratio() and objects().
+  /// Directs drawing to the targets of a pass over ratio() and objects(), cleared as these. If
+  /// `back`, from those into ratio() and objects(), not cleared.
   void BeginPass(bool back) const;
   const gl::GlTexture& passed_ratio() const { return passed_.ratio; }
   const gl::GlTexture& passed_objects() const { return passed_.objects; }

@@ -65,26 +65,9 @@ std::array<glm::vec3, 3> RaysThroughPixels(const RenderCamera& camera, const sha
           marker_from_camera * glm::dvec3(0.0, 1.0 / camera.fy, 0.0)};
 }
 
-PixelRect PictureOf(const RenderCamera& camera, const shadows::View& view,
-                    const shadows::Box& bounds) {
-  if (bounds.Empty()) return {};
-  const PixelRect whole{0, 0, camera.width, camera.height};
-  const glm::dmat4 clip_from_marker = view.ClipFromMarker();
-  glm::dvec2 low(1e30), high(-1e30);
-  for (int corner = 0; corner < 8; ++corner) {
-    const glm::dvec4 clip = clip_from_marker * glm::dvec4(Corner(bounds, corner), 1.0);
-    if (clip.w < kNearM) return whole;
-    const glm::dvec2 at =
-        (0.5 * glm::dvec2(clip) / clip.w + 0.5) * glm::dvec2(camera.width, camera.height);
-    low = glm::min(low, at);
-    high = glm::max(high, at);
-  }
-  // Samples lie anywhere in a pixel; one more for rounding.
-  const glm::dvec2 size(camera.width, camera.height);
-  low = glm::clamp(glm::floor(low) - 1.0, glm::dvec2(0.0), size);
-  high = glm::clamp(glm::ceil(high) + 1.0, glm::dvec2(0.0), size);
-  return {static_cast<int>(low.x), static_cast<int>(low.y), static_cast<int>(high.x - low.x),
-          static_cast<int>(high.y - low.y)};
+SceneProjection ProjectionOf(const RenderCamera& camera, const shadows::View& view, int spread_px) {
+  return {camera.width, camera.height, spread_px, glm::mat4(view.ClipFromMarker()),
+          static_cast<float>(view.near_m)};
 }
 
 }  // namespace pleinair::compositor

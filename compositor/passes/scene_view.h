@@ -5,6 +5,7 @@
 
 #include "base/frames.h"
 #include "compositor/passes/render_camera.h"
+#include "compositor/surfaces/image_tiles.h"
 #include "shadows/light_window.h"
 
 namespace pleinair::compositor {
@@ -19,13 +20,8 @@ shadows::View ViewOf(const RenderCamera& camera,
 /// gl_FragCoord (x, y), one metre deep.
 std::array<glm::vec3, 3> RaysThroughPixels(const RenderCamera& camera, const shadows::View& view);
 
-/// Pixels, as glScissor takes them.
-struct PixelRect {
-  int x = 0, y = 0, width = 0, height = 0;
-};
-
-/// Smallest rectangle of the image that contains the projection of `bounds`.
-PixelRect PictureOf(const RenderCamera& camera, const shadows::View& view,
-                    const shadows::Box& bounds);
+/// The view's image for ImageTiles, with clip_from_position for marker coordinates. `spread_px`: as
+/// SceneProjection.
+SceneProjection ProjectionOf(const RenderCamera& camera, const shadows::View& view, int spread_px);
 
 }  // namespace pleinair::compositor

@@ -24,16 +24,19 @@ Result<ShadowRatioPass> ShadowRatioPass::Create() {
 }
 
 void ShadowRatioPass::DrawSurfaces(const RenderTargets& targets, const SceneSurfaces& surfaces,
-                                   const FrameUniforms& frame) const {
+                                   const FrameUniforms& frame, const PixelRect& within) const {
   targets.BeginSurfaces();
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(within.x, within.y, within.width, within.height);
   id_program_.Use();
   id_program_.Set("u_clip_from_marker", frame.clip_from_marker);
   surfaces.DrawPhantoms(id_program_);
+  glDisable(GL_SCISSOR_TEST);
 }
 
 void ShadowRatioPass::Draw(const RenderTargets& targets, const SceneSurfaces& surfaces,
                            const SurfacePrograms& programs, const FrameUniforms& frame,
-                           const ShadowOptions& options) const {
+                           const ShadowOptions& options, std::span<const PixelRect> within) const {
   using Change = AffectedTriangles::Change;
   no_attributes_.Bind();
   surfaces.triangles().Bind();
@@ -42,7 +45,7 @@ void ShadowRatioPass::Draw(const RenderTargets& targets, const SceneSurfaces& su
   targets.ids().Bind(0);
   sort_program_.Use();
   sort_program_.Set("u_samples", targets.samples());
-  glDrawArrays(GL_TRIANGLES, 0, 3);
+  DrawWithin(within);
 
   targets.BeginRatio();
   glDepthFunc(GL_EQUAL);
@@ -60,7 +63,7 @@ void ShadowRatioPass::Draw(const RenderTargets& targets, const SceneSurfaces& su
       program.Set("u_margin_half_m", static_cast<float>(options.margin_size_m / 2));
       frame.SetSunTransmittance(program);
     }
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    DrawWithin(within);
   };
   const auto draw_linear = [&](const gl::GlProgram& program, bool needs_airlight) {
     surfaces.triangles().BindLinearRatios();

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <span>
+
 #include "base/error.h"
 #include "compositor/passes/frame_uniforms.h"
 #include "compositor/passes/render_targets.h"
 #include "compositor/passes/surface_programs.h"
 #include "compositor/surfaces/affected_triangles.h"
+#include "compositor/surfaces/image_tiles.h"
 #include "compositor/surfaces/scene_surfaces.h"
 #include "gl/program.h"
 #include "gl/vertex_array.h"
@@ -21,21 +24,23 @@ class ShadowRatioPass {
   static Result<ShadowRatioPass> Create();
 
   /// Draws the triangle numbers of the real surfaces into the samples, and their depth. Draw()
-  /// omits surfaces that objects later cover.
+  /// omits surfaces that objects later cover. `within` bounds what Draw() draws.
   void DrawSurfaces(const RenderTargets& targets, const SceneSurfaces& surfaces,
-                    const FrameUniforms& frame) const;
+                    const FrameUniforms& frame, const PixelRect& within) const;
 
   struct ShadowOptions {
     bool assume_unmodelled = true;  ///< Composer::AssumeUnmodelledShadows().
     double margin_size_m = 0.0;     ///< Composer::SetMarkerMargin().
   };
-  /// Shades the surfaces of DrawSurfaces(), after the objects are drawn. Requires
+  /// Shades the surfaces of DrawSurfaces(), after the objects are drawn. `within`: all pixels that
+  /// the objects may affect, in disjoint rectangles. Requires
   /// CameraPicture::BindForShading(2, 3, 4), bound shadow maps, the sun transmittance map at unit
   /// 5, GL_DEPTH_TEST enabled and GL_CULL_FACE disabled. Binds its own textures to units 0, 1, 6
-  /// and 7. Afterwards depth writes are on, depth tests use GL_LESS, and blending is off.
+  /// and 7. Afterwards depth writes are on, depth tests use GL_LESS, and blending and the scissor
+  /// test are off.
   void Draw(const RenderTargets& targets, const SceneSurfaces& surfaces,
             const SurfacePrograms& programs, const FrameUniforms& frame,
-            const ShadowOptions& options) const;
+            const ShadowOptions& options, std::span<const PixelRect> within) const;
 
   /// Classification depth of pixels with at most this change. Must match
   /// shaders/visibility_buffer_layout.glsl.

@@ -23,7 +23,23 @@ constexpr double kOwnBlurPx = 0.29, kWarpedBlurPx = 0.33;
 constexpr double kMinBlur_px = 0.3, kMinNoiseSteps = 2.0;
 constexpr double kMaxBlur_px = 12.0;
 constexpr int kGrainSide = 256, kPixelValueTableSize = 4096;
+constexpr float kInterpolation_px = 1.0F;  // Texels beside a position that a sample reads.
+
 }  // namespace
+
+CameraPicture::Sampled CameraPicture::SampledFrom(int x, int y, const Image<float>& positions) {
+  Sampled sampled;
+  sampled.tile = {x, y, std::min(ImageTiles::kSide_px, positions.width() - x),
+                  std::min(ImageTiles::kSide_px, positions.height() - y)};
+  for (int v = y; v < y + sampled.tile.height; ++v) {
+    for (int u = x; u < x + sampled.tile.width; ++u) {
+      const glm::vec2 at(positions(u, v, 0), positions(u, v, 1));
+      sampled.low = glm::min(sampled.low, at - kInterpolation_px);
+      sampled.high = glm::max(sampled.high, at + kInterpolation_px);
+    }
+  }
+  return sampled;
+}
 
 Result<CameraPicture> CameraPicture::Create(const CameraModel& camera, const RenderCamera& render,
                                             double supersampling, const CameraResponse& response) {
@@ -37,7 +53,13 @@ Result<CameraPicture> CameraPicture::Create(const CameraModel& camera, const Ren
   }
   PLEINAIR_ASSIGN_OR_RETURN(picture.positions_,
                             gl::GlTexture::Create2D(GL_RG32F, camera.width, camera.height));
-  picture.positions_.Upload(GL_RG, GL_FLOAT, RenderPositions(camera, render).data());
+  const Image<float> positions = RenderPositions(camera, render);
+  picture.positions_.Upload(GL_RG, GL_FLOAT, positions.data());
+  for (int y = 0; y < camera.height; y += ImageTiles::kSide_px) {
+    for (int x = 0; x < camera.width; x += ImageTiles::kSide_px) {
+      picture.sampled_.push_back(SampledFrom(x, y, positions));
+    }
+  }
   PLEINAIR_ASSIGN_OR_RETURN(picture.camera_positions_,
                             gl::GlTexture::Create2D(GL_RG32F, render.width, render.height));
   picture.camera_positions_.Upload(GL_RG, GL_FLOAT, CameraPositions(camera, render).data());
@@ -110,19 +132,23 @@ Result<void> CameraPicture::SetCameraLook(const std::optional<CameraLook>& look)
   return {};
 }
 
+int CameraPicture::BlurReach_px() const {
+  return static_cast<int>(std::ceil(2.5 * added_blur_px_ * supersampling_));
+}
+
 /// Blurs both virtual images, along the rows and then along the columns.
-void CameraPicture::Blur(const RenderTargets& targets) const {
+void CameraPicture::Blur(const RenderTargets& targets, std::span<const PixelRect> within) const {
   const double sigma = added_blur_px_ * supersampling_;
   programs_.blur.Use();
   programs_.blur.Set("u_sigma_px", static_cast<float>(sigma));
-  programs_.blur.Set("u_reach_px", static_cast<int>(std::ceil(2.5 * sigma)));
+  programs_.blur.Set("u_reach_px", BlurReach_px());
   no_attributes_.Bind();
   for (const bool back : {false, true}) {
     targets.BeginPass(back);
     (back ? targets.passed_ratio() : targets.ratio()).Bind(1);
     (back ? targets.passed_objects() : targets.objects()).Bind(2);
     programs_.blur.Set("u_direction", back ? glm::ivec2(0, 1) : glm::ivec2(1, 0));
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    DrawWithin(within);
   }
 }
 
@@ -142,8 +168,16 @@ void CameraPicture::SetBackground(ImageView<const std::uint8_t> rgb) {
   background_.Upload(GL_RGB, GL_UNSIGNED_BYTE, rgb.data());
 }
 
-void CameraPicture::Draw(const RenderTargets& targets) {
-  if (added_blur_px_ > 0.0) Blur(targets);
+void CameraPicture::Draw(const RenderTargets& targets, const ImageTiles& tiles) {
+  if (added_blur_px_ > 0.0) Blur(targets, tiles.Rectangles());
+  ImageTiles drawn(camera_.width, camera_.height);
+  for (const Sampled& sampled : sampled_) {
+    const auto& [x, y, width, height] = sampled.tile;
+    if (tiles.Touches(sampled.low, sampled.high)) {
+      drawn.Include({x + 0.5F, y + 0.5F}, {x + width - 0.5F, y + height - 0.5F});
+    }
+  }
+  output_.drawn = drawn.Rectangles();
   output_.framebuffer.Bind();
   (grain_.look ? programs_.grain : programs_.composite).Use();
   if (grain_.look) SetGrain();
@@ -157,12 +191,16 @@ void CameraPicture::Draw(const RenderTargets& targets) {
   targets.objects().Bind(2);
   positions_.Bind(3);
   no_attributes_.Bind();
-  glDrawArrays(GL_TRIANGLES, 0, 3);
+  DrawWithin(output_.drawn);
 }
 
-RgbImage CameraPicture::Read() const {
+RgbImage CameraPicture::Read(ImageView<const std::uint8_t> rgb) const {
   RgbImage composed(camera_.width, camera_.height, 3);
-  output_.framebuffer.ReadPixels(0, GL_RGB, GL_UNSIGNED_BYTE, composed.data());
+  std::copy_n(rgb.data(), composed.size(), composed.data());
+  for (const auto& [x, y, width, height] : output_.drawn) {
+    output_.framebuffer.ReadRectangle(x, y, width, height, GL_RGB, GL_UNSIGNED_BYTE, camera_.width,
+                                      &composed(x, y));
+  }
   return composed;
 }
 

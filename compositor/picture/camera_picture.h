@@ -1,7 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/glm.hpp>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "base/camera_model.h"
 #include "base/camera_response.h"
@@ -10,6 +13,7 @@
 #include "compositor/passes/render_camera.h"
 #include "compositor/passes/render_targets.h"
 #include "compositor/picture/camera_look.h"
+#include "compositor/surfaces/image_tiles.h"
 #include "gl/framebuffer.h"
 #include "gl/program.h"
 #include "gl/texture.h"
@@ -33,8 +37,11 @@ class CameraPicture {
 
   /// Uploads the camera image `rgb`. It must have the camera's size and no gaps between rows.
   void SetBackground(ImageView<const std::uint8_t> rgb);
-  /// Composes the drawn and resolved `targets`. The blur is applied to them in place.
-  void Draw(const RenderTargets& targets);
+  /// Farthest render pixels, along a row or column, that a drawn one is spread to. 0 without blur.
+  int Spread_px() const { return added_blur_px_ > 0.0 ? 2 * BlurReach_px() : 0; }
+  /// Composes the drawn and resolved `targets`. The blur is applied to them in place. `tiles`: all
+  /// render pixels within Spread_px() of a ratio other than 1 or of an object.
+  void Draw(const RenderTargets& targets, const ImageTiles& tiles);
   /// Binds the camera image, the render pixels' positions in it, and the table of linear light per
   /// pixel value.
   void BindForShading(int background_unit, int positions_unit, int light_unit) const {
@@ -42,8 +49,9 @@ class CameraPicture {
     camera_positions_.Bind(positions_unit);
     response_.light_of_pixel_value.Bind(light_unit);
   }
-  /// Returns the image, including anything drawn into framebuffer() since.
-  RgbImage Read() const;
+  /// Returns the image, including anything drawn into the tiles of framebuffer() since. `rgb`: the
+  /// camera image, of which the other pixels are copies.
+  RgbImage Read(ImageView<const std::uint8_t> rgb) const;
 
   const gl::GlTexture& positions() const { return positions_; }
   const gl::GlFramebuffer& framebuffer() const { return output_.framebuffer; }
@@ -57,6 +65,12 @@ class CameraPicture {
   struct Output {
     gl::GlTexture picture;
     gl::GlFramebuffer framebuffer;
+    std::vector<PixelRect> drawn;  // Of the last Draw().
+  };
+  /// Render pixels that a tile of the camera image samples.
+  struct Sampled {
+    PixelRect tile;
+    glm::vec2 low{1e30F}, high{-1e30F};
   };
   struct Programs {
     gl::GlProgram blur, composite, grain;
@@ -68,8 +82,11 @@ class CameraPicture {
     double correlation = -1.0;       // Of the texture.
     std::uint32_t pictures = 0;      // Images composed so far. Each receives its own noise.
   };
+  /// Of the tile whose first pixel is (x, y). `positions`: RenderPositions().
+  static Sampled SampledFrom(int x, int y, const Image<float>& positions);
   Result<void> CreateResponseTables();
-  void Blur(const RenderTargets& targets) const;
+  int BlurReach_px() const;
+  void Blur(const RenderTargets& targets, std::span<const PixelRect> within) const;
   void SetGrain() const;
 
   CameraModel camera_;
@@ -77,6 +94,7 @@ class CameraPicture {
   Response response_;
   gl::GlTexture background_, positions_, camera_positions_;
   Output output_;
+  std::vector<Sampled> sampled_;  // One per tile of the camera image.
   gl::GlVertexArray no_attributes_;
   Programs programs_;
   double added_blur_px_ = 0.0;  // Camera pixels; 0: none.

@@ -40,6 +40,8 @@ class AffectedTriangles {
   void Sort(const SunWindow& window, const SunFootprint& objects, const glm::vec3& sun_normal_lux,
             const DrawReductions& reductions = {});
   std::span<const std::uint32_t> indices() const { return indices_; }
+  /// Vertex positions, marker coordinates, metres.
+  std::span<const glm::vec3> positions() const { return positions_; }
   const std::array<int, kChanges>& ends() const { return ends_; }
   /// The shadow ratios of the kLinearSky triangles, in their order.
   std::span<const LinearShadowRatio> linear_ratios() const { return linear_ratios_; }

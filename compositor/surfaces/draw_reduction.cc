@@ -70,6 +70,27 @@ void DrawReduction::SortPhantoms(const SunOnPhantoms& sun,
   sorted_for_ = sun;
 }
 
+AffectedTiles DrawReduction::TilesOf(const SceneProjection& image,
+                                     std::span<const glm::mat4> objects_moved) const {
+  AffectedTiles tiles{ImageTiles(image), ImageTiles(image)};
+  if (!reductions_.affected_tiles) {
+    tiles.objects.IncludeAll();
+    tiles.all.IncludeAll();
+    return tiles;
+  }
+  for (std::size_t object = 0; object < objects_.size(); ++object) {
+    SceneProjection moved = image;
+    moved.clip_from_position *= objects_moved[object];
+    tiles.objects.Include(moved, object_positions_[object], objects_[object].indices());
+  }
+  tiles.all.Include(tiles.objects);
+  for (const AffectedTriangles& phantom : phantoms_) {
+    const auto affected = static_cast<std::size_t>(phantom.ends()[AffectedTriangles::kLinearSky]);
+    tiles.all.Include(image, phantom.positions(), phantom.indices().first(affected));
+  }
+  return tiles;
+}
+
 bool DrawReduction::SortObject(std::size_t object, const glm::vec3& to_sun) {
   // Without a sun, Sort() is right with or without the reduction.
   if (!reductions_.sun_facing_triangles && to_sun != glm::vec3(0.0F)) {

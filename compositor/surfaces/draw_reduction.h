@@ -10,6 +10,7 @@
 #include "compositor/light/lit_mesh.h"
 #include "compositor/light/sun_footprint.h"
 #include "compositor/surfaces/affected_triangles.h"
+#include "compositor/surfaces/image_tiles.h"
 #include "compositor/surfaces/sun_facing_triangles.h"
 
 namespace pleinair::compositor {
@@ -57,6 +58,11 @@ class DrawReduction {
   /// Sorts an object's triangles by whether they may face the sun. Returns whether their order
   /// changed. `to_sun`: as SunFacingTriangles::Sort().
   bool SortObject(std::size_t object, const glm::vec3& to_sun);
+
+  /// Returns the tiles of an image that show objects, and those that show anything affected.
+  /// `objects_moved`: as SortPhantoms().
+  AffectedTiles TilesOf(const SceneProjection& image,
+                        std::span<const glm::mat4> objects_moved) const;
 
   /// In the order of addition.
   std::span<const AffectedTriangles> phantoms() const { return phantoms_; }

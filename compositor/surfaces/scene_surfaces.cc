@@ -136,14 +136,22 @@ Result<void> SceneSurfaces::SetShapes(const std::vector<LitMesh>& lit, std::size
   return SetMix(lit, mix);
 }
 
-Result<void> SceneSurfaces::SortPhantoms(const SunOnPhantoms& sun) {
-  if (reduction_.AreSortedFor(sun)) return {};
-  std::vector<glm::mat4> objects_moved;
+std::vector<glm::mat4> SceneSurfaces::ObjectsMoved() const {
+  std::vector<glm::mat4> moved;
   for (const SurfaceBuffers& surface : surfaces_) {
     if (!surface.IsDrawnObject()) continue;
-    objects_moved.emplace_back(placement_.MovedBy(surface.placed_model()));
+    moved.emplace_back(placement_.MovedBy(surface.placed_model()));
   }
-  reduction_.SortPhantoms(sun, objects_moved);
+  return moved;
+}
+
+AffectedTiles SceneSurfaces::TilesOf(const SceneProjection& image) const {
+  return reduction_.TilesOf(image, ObjectsMoved());
+}
+
+Result<void> SceneSurfaces::SortPhantoms(const SunOnPhantoms& sun) {
+  if (reduction_.AreSortedFor(sun)) return {};
+  reduction_.SortPhantoms(sun, ObjectsMoved());
   auto triangles = reduction_.phantoms().begin();
   std::vector<SortedTriangles> sorted;
   sorted.reserve(reduction_.phantoms().size());

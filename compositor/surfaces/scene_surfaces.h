@@ -10,6 +10,7 @@
 #include "compositor/light/lit_mesh.h"
 #include "compositor/models/placed_model.h"
 #include "compositor/surfaces/draw_reduction.h"
+#include "compositor/surfaces/image_tiles.h"
 #include "compositor/surfaces/material_table.h"
 #include "compositor/surfaces/scene_materials.h"
 #include "compositor/surfaces/surface_buffers.h"
@@ -47,6 +48,9 @@ class SceneSurfaces {
   /// Classifies the phantoms' triangles by what objects may change under `sun`. Errors (system): no
   /// memory.
   Result<void> SortPhantoms(const SunOnPhantoms& sun);
+  /// Returns the tiles of an image that the sorted surfaces affect. `image`: with
+  /// clip_from_position for marker coordinates.
+  AffectedTiles TilesOf(const SceneProjection& image) const;
   /// Draws the triangle numbers of triangles() for the affected triangles of the phantoms.
   /// `program` with shaders/triangle_id.frag must be in use.
   void DrawPhantoms(const gl::GlProgram& program) const;
@@ -71,6 +75,8 @@ class SceneSurfaces {
   /// Returns whether the surfaces are those of `lit`, so that only their light is new.
   bool HasSurfacesOf(const std::vector<LitMesh>& lit) const;
   Result<void> SetSurfaces(const std::vector<LitMesh>& lit);
+  /// One per object that reduction_ has: its transform from where it was lit.
+  std::vector<glm::mat4> ObjectsMoved() const;
   const Material& MaterialOf(const SurfaceBuffers& surface) const {
     return materials_.Of(surface.placed_model(), surface.material());
   }

@@ -33,8 +33,13 @@ void ExpectNear(const RgbImage& drawn, const RgbImage& in_full, bool linear_shad
   EXPECT_LE(CountNoticeable(drawn, in_full), linear_shadow_ratio ? 5 : 0);
 }
 
+const testing::Courtyard& TheCourtyard() {
+  static const testing::Courtyard courtyard;
+  return courtyard;
+}
+
 TEST(ComposerReduction, ChangesNextToNothingInTheCourtyard) {
-  const testing::Courtyard courtyard;
+  const testing::Courtyard& courtyard = TheCourtyard();
   const RgbImage picture = courtyard.Picture();
   const auto composer = courtyard.MakeComposer({});
   const auto draw = [&](const DrawReductions& reductions) {
@@ -52,12 +57,38 @@ TEST(ComposerReduction, ChangesNextToNothingInTheCourtyard) {
   for (bool DrawReductions::*const reduction :
        {&DrawReductions::affected_triangles, &DrawReductions::sun_footprint,
         &DrawReductions::sun_visibility, &DrawReductions::linear_shadow_ratio,
-        &DrawReductions::sun_facing_triangles}) {
+        &DrawReductions::sun_facing_triangles, &DrawReductions::affected_tiles}) {
     DrawReductions others;
     others.*reduction = false;
     ExpectNear(draw(others), in_full, others.linear_shadow_ratio);
   }
   EXPECT_EQ(MaxDifference(draw({}), reduced), 0) << "they can be taken up again";
+}
+
+TEST(ComposerReduction, DrawsTheSameBytesInAffectedTilesAsInTheWholePicture) {
+  const testing::Courtyard& courtyard = TheCourtyard();
+  const RgbImage picture = courtyard.Picture();
+  const CameraLook look{.blur_px = 0.9,
+                        .noise_constant = {1e-5, 1e-5, 1e-5},
+                        .noise_slope = {1e-3, 1e-3, 1e-3},
+                        .neighbour_correlation = 0.2};
+  for (const double k1 : {0.0, -0.2}) {
+    CameraModel lens = courtyard.camera();
+    lens.distortion = {k1};
+    std::array<RgbImage, 2> composed;
+    for (const bool tiles : {false, true}) {
+      const auto composer = courtyard.MakeComposer({.reductions = {.affected_tiles = tiles}}, lens);
+      ASSERT_TRUE(composer->SetCameraLook(look));
+      // Each frame finds what the one before has left in the targets.
+      for (const std::size_t frame : {std::size_t{0}, std::size_t{testing::Courtyard::kKeyFrame}}) {
+        composed[tiles ? 1 : 0] =
+            composer->Compose(picture.view(), courtyard.poses()[frame], courtyard.ExposureScale())
+                .value();
+      }
+    }
+    EXPECT_GT(MaxDifference(composed[0], picture), 50);
+    EXPECT_EQ(MaxDifference(composed[0], composed[1]), 0) << "k1 = " << k1;
+  }
 }
 
 }  // namespace

@@ -62,7 +62,12 @@ class Courtyard {
   /// A composer with the courtyard's light, without unmodelled shadows. With them it would shade
   /// the whole sun window.
   std::unique_ptr<Composer> MakeComposer(const ComposerOptions& options) const {
-    auto composer = Composer::Create(camera_, scene_, options).value();
+    return MakeComposer(options, camera_);
+  }
+  /// The same with another camera.
+  std::unique_ptr<Composer> MakeComposer(const ComposerOptions& options,
+                                         const CameraModel& camera) const {
+    auto composer = Composer::Create(camera, scene_, options).value();
     CHECK_EQ(composer->SetLight(lit_, day_, Mat3{}, from_below_).has_value(), true);
     composer->AssumeUnmodelledShadows(false);
     return composer;
@@ -83,6 +88,7 @@ class Courtyard {
     return composer;
   }
 
+  const CameraModel& camera() const { return camera_; }
   /// Coverage by the object in Picture(), 0…255.
   RgbImage ObjectMask() const { return ReadTexture(Folder() / "key/0036_objmask.png").value(); }
 

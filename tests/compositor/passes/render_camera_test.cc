@@ -79,29 +79,20 @@ TEST(SceneView, SeesAPointOfTheSceneAlongTheRayOfItsPixel) {
   EXPECT_NEAR(eye.z + depth * along.z, point.xyz.z, 1e-6);
 }
 
-TEST(SceneView, KeepsABoxWithinItsPictureAndTheWholePictureForABoxAroundTheEye) {
+TEST(SceneView, ProjectsTrianglesForTilesToTheirPixels) {
   const RenderCamera render = FitRenderCamera(kPinhole, 1.0);
-  const shadows::Box box{{-0.1, -0.1, 0}, {0.1, 0.2, 0.3}};
   const shadows::View view = ViewOf(render, kTilted, {{-1, -1, 0}, {1, 1, 0.5}});
-  const PixelRect rect = PictureOf(render, view, box);
-  EXPECT_LT(rect.width, 60);
-  EXPECT_LT(rect.height, 60);
-  for (const double x : {-0.1, 0.1}) {
-    for (const double y : {-0.1, 0.2}) {
-      for (const double z : {0.0, 0.3}) {
-        const Vec2 at =
-            CornerOriginFromPixel(ProjectToPixel(kPinhole, kTilted * Point<Marker>{{x, y, z}}));
-        EXPECT_GT(at.x, rect.x + 0.9);
-        EXPECT_LT(at.x, rect.x + rect.width - 0.9);
-        EXPECT_GT(at.y, rect.y + 0.9);
-        EXPECT_LT(at.y, rect.y + rect.height - 0.9);
-      }
-    }
-  }
-  const PixelRect whole = PictureOf(render, view, {{-5, -5, -5}, {5, 5, 5}});
-  EXPECT_EQ(whole.width, 160);
-  EXPECT_EQ(whole.height, 120);
-  EXPECT_EQ(PictureOf(render, view, {}).width, 0) << "nothing";
+  const SceneProjection image = ProjectionOf(render, view, 3);
+  EXPECT_EQ(image.width, 160);
+  EXPECT_EQ(image.height, 120);
+  EXPECT_EQ(image.spread_px, 3);
+  const Vec2 pixel =
+      CornerOriginFromPixel(ProjectToPixel(kPinhole, kTilted * Point<Marker>{{0.1, 0.2, 0.3}}));
+  const glm::vec4 clip = image.clip_from_position * glm::vec4(0.1F, 0.2F, 0.3F, 1.0F);
+  EXPECT_NEAR((0.5F * clip.x / clip.w + 0.5F) * 160, pixel.x, 1e-3);
+  EXPECT_NEAR((0.5F * clip.y / clip.w + 0.5F) * 120, pixel.y, 1e-3);
+  EXPECT_NEAR(clip.w, (kTilted * Point<Marker>{{0.1, 0.2, 0.3}}).xyz.z, 1e-5);
+  EXPECT_FLOAT_EQ(image.near_m, static_cast<float>(view.near_m));
 }
 
 }  // namespace

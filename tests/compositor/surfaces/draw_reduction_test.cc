@@ -67,10 +67,23 @@ class Scene {
   }
   std::size_t linear_ratios() const { return reduction_.phantoms()[0].linear_ratios().size(); }
   int facing() const { return reduction_.objects()[0].facing_end() / 3; }
+  /// Of an image of four by two tiles, one a metre, with the origin in the second row.
+  AffectedTiles tiles() const {
+    SceneProjection image{.width = 256, .height = 128, .near_m = 0.1F};
+    image.clip_from_position = {{0.5F, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 0, 0}, {-0.95F, 0.1F, 0, 1}};
+    return reduction_.TilesOf(image, std::vector<glm::mat4>{glm::mat4(1.0F)});
+  }
 
  private:
   DrawReduction reduction_;
 };
+
+TEST(DrawReduction, DrawsTheTilesOfObjectsAndOfWhatTheyAffect) {
+  const AffectedTiles tiles = Scene({}).tiles();
+  EXPECT_THAT(tiles.objects.Rectangles(), ElementsAre(PixelRect{0, 64, 64, 64}));
+  EXPECT_THAT(tiles.all.Rectangles(), ElementsAre(PixelRect{0, 64, 192, 64}))
+      << "nothing changes on the last triangle";
+}
 
 Scene Without(bool DrawReductions::*reduction) {
   DrawReductions others;
@@ -102,6 +115,9 @@ TEST(DrawReduction, SwitchesEachReductionOffByItself) {
   EXPECT_EQ(Without(&DrawReductions::linear_shadow_ratio).linear_ratios(), 0U);
   EXPECT_THAT(Without(&DrawReductions::linear_shadow_ratio).ends(), ElementsAre(1, 3, 3, 4));
   EXPECT_EQ(Without(&DrawReductions::sun_facing_triangles).facing(), 2);
+  const AffectedTiles tiles = Without(&DrawReductions::affected_tiles).tiles();
+  EXPECT_THAT(tiles.objects.Rectangles(), ElementsAre(PixelRect{0, 0, 256, 128}));
+  EXPECT_THAT(tiles.all.Rectangles(), ElementsAre(PixelRect{0, 0, 256, 128}));
 }
 
 }  // namespace

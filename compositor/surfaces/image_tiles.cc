@@ -1,0 +1,144 @@
+#include "compositor/surfaces/image_tiles.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+namespace pleinair::compositor {
+namespace {
+
+// Samples lie anywhere in a pixel, and a renderer rounds vertices; both within a pixel.
+constexpr float kRounding_px = 2.0F;
+constexpr float kNearest = 0.9F;  // Of the near plane's depth, also for rounding.
+
+/// Bounds of what is drawn of a triangle, pixels.
+struct DrawnBounds {
+  glm::vec2 low{1e30F}, high{-1e30F};
+  bool is_known = true;  // False if a coordinate is not a number.
+  void Add(const glm::vec4& clip, const glm::vec2& size_px) {
+    const glm::vec2 at = (0.5F * glm::vec2(clip) / clip.w + 0.5F) * size_px;
+    low = glm::min(low, at);
+    high = glm::max(high, at);
+    is_known = is_known && glm::all(glm::lessThan(glm::abs(at), glm::vec2(1e30F)));
+  }
+};
+
+}  // namespace
+
+ImageTiles::ImageTiles(int width, int height)
+    : size_px_(width, height),
+      tiles_((width + kSide_px - 1) / kSide_px, (height + kSide_px - 1) / kSide_px),
+      included_(static_cast<std::size_t>(tiles_.x) * static_cast<std::size_t>(tiles_.y), 0) {}
+
+void ImageTiles::IncludeAll() { std::fill(included_.begin(), included_.end(), 1); }
+
+void ImageTiles::Include(const ImageTiles& other) {
+  std::transform(included_.begin(), included_.end(), other.included_.begin(), included_.begin(),
+                 [](char a, char b) { return static_cast<char>(a | b); });
+}
+
+ImageTiles::Range ImageTiles::RangeOf(glm::vec2 low, glm::vec2 high) const {
+  const glm::vec2 size(size_px_);
+  // Also where a coordinate is not a number: then the whole extent counts.
+  if (!(low.x < size.x && low.y < size.y && high.x >= 0.0F && high.y >= 0.0F)) {
+    const bool is_outside = low.x >= size.x || low.y >= size.y || high.x < 0.0F || high.y < 0.0F;
+    return is_outside ? Range{} : Range{glm::ivec2(0), tiles_ - 1};
+  }
+  const glm::vec2 side(kSide_px);
+  return {glm::ivec2(glm::max(low, glm::vec2(0.0F)) / side),
+          glm::min(glm::ivec2(glm::min(high, size) / side), tiles_ - 1)};
+}
+
+void ImageTiles::Include(glm::vec2 low, glm::vec2 high) {
+  const auto [first, last] = RangeOf(low, high);
+  for (int y = first.y; y <= last.y; ++y) {
+    const auto row = included_.begin() + static_cast<std::ptrdiff_t>(y) * tiles_.x;
+    if (last.x >= first.x) std::fill(row + first.x, row + last.x + 1, 1);
+  }
+}
+
+void ImageTiles::Include(const SceneProjection& image, std::span<const glm::vec3> positions,
+                         std::span<const std::uint32_t> indices) {
+  const glm::vec2 size(size_px_);
+  const float margin_px = kRounding_px + static_cast<float>(image.spread_px);
+  const float near_m = kNearest * image.near_m;
+  for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+    std::array<glm::vec4, 3> clip{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      clip[k] = image.clip_from_position * glm::vec4(positions[indices[i + k]], 1.0F);
+    }
+    DrawnBounds bounds;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const glm::vec4 &from = clip[k], &to = clip[(k + 1) % 3];
+      // Written so that a depth which is not a number is in front.
+      if (!(from.w < near_m)) bounds.Add(from, size);
+      if ((from.w < near_m) != (to.w < near_m)) {
+        bounds.Add(glm::mix(from, to, (near_m - from.w) / (to.w - from.w)), size);
+      }
+    }
+    if (!bounds.is_known) {
+      IncludeAll();
+    } else if (bounds.low.x <= bounds.high.x) {
+      Include(bounds.low - margin_px, bounds.high + margin_px);
+    }
+  }
+}
+
+bool ImageTiles::Touches(glm::vec2 low, glm::vec2 high) const {
+  const auto [first, last] = RangeOf(low, high);
+  for (int y = first.y; y <= last.y; ++y) {
+    for (int x = first.x; x <= last.x; ++x) {
+      if (included_[static_cast<std::size_t>(y * tiles_.x + x)] != 0) return true;
+    }
+  }
+  return false;
+}
+
+std::vector<PixelRect> ImageTiles::Rectangles() const {
+  std::vector<char> left = included_;
+  const auto is_run = [&](int y, int first, int end) {
+    const auto row = left.begin() + static_cast<std::ptrdiff_t>(y) * tiles_.x;
+    return std::find(row + first, row + end, 0) == row + end;
+  };
+  std::vector<PixelRect> rectangles;
+  for (int y = 0; y < tiles_.y; ++y) {
+    for (int x = 0; x < tiles_.x; ++x) {
+      int right = x;
+      while (right < tiles_.x && is_run(y, right, right + 1)) ++right;
+      if (right == x) continue;
+      int bottom = y + 1;
+      while (bottom < tiles_.y && is_run(bottom, x, right)) ++bottom;
+      for (int row = y; row < bottom; ++row) {
+        const auto begin = left.begin() + static_cast<std::ptrdiff_t>(row) * tiles_.x;
+        std::fill(begin + x, begin + right, 0);
+      }
+      const glm::ivec2 end = glm::min(glm::ivec2(right, bottom) * kSide_px, size_px_);
+      rectangles.push_back(
+          {x * kSide_px, y * kSide_px, end.x - x * kSide_px, end.y - y * kSide_px});
+    }
+  }
+  return rectangles;
+}
+
+PixelRect ImageTiles::Bounds() const {
+  glm::ivec2 low = size_px_, high(0);
+  for (const PixelRect& r : Rectangles()) {
+    low = glm::min(low, glm::ivec2(r.x, r.y));
+    high = glm::max(high, glm::ivec2(r.x + r.width, r.y + r.height));
+  }
+  if (low.x >= high.x) return {};
+  return {low.x, low.y, high.x - low.x, high.y - low.y};
+}
+
+void DrawWithin(std::span<const PixelRect> rectangles) {
+  glEnable(GL_SCISSOR_TEST);
+  for (const PixelRect& r : rectangles) {
+    glScissor(r.x, r.y, r.width, r.height);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+  }
+  glDisable(GL_SCISSOR_TEST);
+}
+
+}  // namespace pleinair::compositor

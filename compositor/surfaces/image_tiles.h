@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+namespace pleinair::compositor {
+
+/// Pixels, as glScissor takes them.
+struct PixelRect {
+  int x = 0, y = 0, width = 0, height = 0;
+  bool operator==(const PixelRect&) const = default;
+};
+
+/// An image of the scene.
+struct SceneProjection {
+  int width = 0, height = 0;
+  /// Distance by which passes spread what they draw, such as a blur.
+  int spread_px = 0;
+  glm::mat4 clip_from_position{1.0F};  ///< To OpenGL's clip space; w is the depth in metres.
+  float near_m = 0.0F;                 ///< Nearer parts are not drawn.
+};
+
+/// Square tiles of an image that a pass has to draw. Row 0 is the row of gl_FragCoord's y = 0.5.
+/// Mesa's software renderer sorts its work into squares of the same size and position, so a pass
+/// over whole tiles costs nothing along their borders.
+class ImageTiles {
+ public:
+  static constexpr int kSide_px = 64;
+
+  /// No tile of an image.
+  ImageTiles(int width, int height);
+  explicit ImageTiles(const SceneProjection& image) : ImageTiles(image.width, image.height) {}
+
+  /// Adds all tiles.
+  void IncludeAll();
+  /// Adds tiles of an image of the same size.
+  void Include(const ImageTiles& other);
+  /// Adds the tiles that a rectangle touches, in pixels with centres at .5.
+  void Include(glm::vec2 low, glm::vec2 high);
+  /// Adds the tiles that triangles may affect in an image of the same size. `indices`: three a
+  /// triangle.
+  void Include(const SceneProjection& image, std::span<const glm::vec3> positions,
+               std::span<const std::uint32_t> indices);
+
+  /// Returns whether a rectangle, in pixels with centres at .5, touches a tile of the set.
+  bool Touches(glm::vec2 low, glm::vec2 high) const;
+  /// Returns disjoint rectangles that together are the tiles of the set.
+  std::vector<PixelRect> Rectangles() const;
+  /// Returns the smallest rectangle with all tiles of the set.
+  PixelRect Bounds() const;
+
+ private:
+  struct Range {
+    glm::ivec2 first{0}, last{-1};  // Tiles; empty where a last one is smaller.
+  };
+  Range RangeOf(glm::vec2 low, glm::vec2 high) const;
+
+  glm::ivec2 size_px_, tiles_;
+  std::vector<char> included_;  // Row by row.
+};
+
+/// Tiles that virtual objects affect.
+struct AffectedTiles {
+  ImageTiles objects;  ///< With objects in them.
+  ImageTiles all;      ///< Also those with surfaces whose light changes.
+};
+
+/// Draws three vertices without attributes, as shaders/screen_triangle.vert takes them, into each
+/// of the rectangles. Afterwards the scissor test is off.
+void DrawWithin(std::span<const PixelRect> rectangles);
+
+}  // namespace pleinair::compositor
