@@ -26,8 +26,8 @@ struct MarkerDetection {
   /// Corners of the outer black square, or of an image target, in pixels (integer = pixel centre):
   /// clockwise from top-left on the upright marker.
   std::array<Vec2, 4> corners_px;
-  double visible_fraction =
-      1.0;  ///< Visible share of the marker, 0…1; without an id, of its border.
+  /// Visible share of the marker, 0…1; without an id, of its border.
+  double visible_fraction = 1.0;
   DetectionPath path = DetectionPath::kFast;
   /// Visibility map: `visibility_side`² squares of the marker, quiet zone included, row by row from
   /// the top-left of the upright marker; 0 covered … 1 as predicted. Empty if unknown.

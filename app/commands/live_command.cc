@@ -253,9 +253,10 @@ void AddLiveCommand(CLI::App& app, CommandResult& result) {
                       "Write the detections, one JSON line a frame");
   CLI::Option* output =
       command
-          ->add_option("-o,--output", a.output.folder,
-                       "Folder for what replay writes of a recording: poses/MARKER.tum, light.csv and "
-                       "detections.jsonl; markers are measured as in replay, some 20 ms each")
+          ->add_option(
+              "-o,--output", a.output.folder,
+              "Folder for what replay writes of a recording: poses/MARKER.tum, light.csv and "
+              "detections.jsonl; markers are measured as in replay, some 20 ms each")
           ->type_name("FOLDER");
   command
       ->add_option("--export", a.output.exports,

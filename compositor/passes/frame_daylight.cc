@@ -35,7 +35,7 @@ void FrameDaylight::SetSun(const sky::SkyModel& day, const Mat3& marker_from_wor
 }
 
 void FrameDaylight::SetEnvironment(const sky::SkyModel& day, const Mat3& marker_from_world,
-                                LinearRgb from_below) {
+                                   LinearRgb from_below) {
   const EnvironmentMap map = BuildEnvironmentMap(day, marker_from_world, from_below);
   for (int level = 0; level < EnvironmentMap::kLevels; ++level) {
     environment_.UploadLayer(level, GL_RGB, GL_FLOAT, map.levels[level].data());

@@ -65,7 +65,7 @@ class CameraPicture {
   struct Output {
     gl::GlTexture picture;
     gl::GlFramebuffer framebuffer;
-    std::vector<PixelRect> drawn;  // Of the last Draw().
+    std::vector<PixelRect> drawn;  // In the last Draw().
   };
   /// Render pixels that a tile of the camera image samples.
   struct Sampled {
@@ -82,7 +82,7 @@ class CameraPicture {
     double correlation = -1.0;       // Of the texture.
     std::uint32_t pictures = 0;      // Images composed so far. Each receives its own noise.
   };
-  /// Of the tile whose first pixel is (x, y). `positions`: RenderPositions().
+  /// What the tile whose first pixel is (x, y) samples. `positions`: RenderPositions().
   static Sampled SampledFrom(int x, int y, const Image<float>& positions);
   Result<void> CreateResponseTables();
   int BlurReach_px() const;

@@ -11,7 +11,7 @@ namespace {
 
 // Samples lie anywhere in a pixel, and a renderer rounds vertices; both within a pixel.
 constexpr float kRounding_px = 2.0F;
-constexpr float kNearest = 0.9F;  // Of the near plane's depth, also for rounding.
+constexpr float kNearest = 0.9F;  // Share of the near plane's depth, also for rounding.
 
 /// Bounds of what is drawn of a triangle, pixels.
 struct DrawnBounds {

@@ -18,7 +18,7 @@ namespace pleinair::devices {
 struct FramePackPlace {
   std::int64_t at = 0;  ///< Offset of its first byte in the file.
   FrameRecordHead head;
-  std::int64_t timestamp_ns = 0;  ///< Of a chain: known of the first and the last frame alone.
+  std::int64_t timestamp_ns = 0;  ///< In a chain: known of the first and the last frame alone.
 
   std::int64_t bytes() const {
     return static_cast<std::int64_t>(FrameRecordHead::kBytes + head.metadata_bytes +

@@ -19,9 +19,10 @@
 
 namespace pleinair::session {
 
-/// Follows sun and sky of a live session (ForwardFollower) on two threads of low priority, so that
-/// no frame waits: one estimates the light of the newest frame, the other traces the light on new
-/// probes. A frame is drawn with the newest light, which is that of the frame or of one before.
+/// Follows sun and sky of a live session (ForwardFollower). No frame waits for it: it has two
+/// threads of low priority. One estimates the light of the newest frame, the other traces the light
+/// on new probes. A frame is drawn with the newest light, which is that of the frame or of one
+/// before.
 class LiveLight {
  public:
   /// `camera`: the lens of the frames.

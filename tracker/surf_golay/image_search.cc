@@ -10,10 +10,10 @@
 namespace pleinair::tracker {
 namespace {
 
-/// A marker without a number: minimum share of its border that matches the prediction; minimum
-/// correlation of the border's single pixels, and its minimum lead over any other orientation. In
-/// images of other prints (tests/tracker/surf_golay/sg_negative_test.cc) the correlation is at most
-/// 0.41 and leads by 0.01. On markers it is 0.84 or more and leads by 0.4.
+/// A marker without a number: minimum share of its border that matches the prediction, and minimum
+/// correlation of the border's single pixels. Third: its minimum lead over any other orientation.
+/// In images of other prints (tests/tracker/surf_golay/sg_negative_test.cc) the correlation is at
+/// most 0.41 and leads by 0.01. On markers it is 0.84 or more and leads by 0.4.
 constexpr double kCertainVisible = 0.8, kCertainCorrelation = 0.6, kCertainLead = 0.2;
 /// Distance of corners, in sides, beyond which two such borders are two markers.
 constexpr double kOtherMarker = 0.5;

@@ -214,10 +214,10 @@ TEST_F(OutputFolderTest, AResumableOneThatCannotBeMovedIsKeptWhole) {
   }
   Write(root_ / "light.csv/in_the_way");  // Files before it in the alphabet are moved by then.
   ASSERT_FALSE(folder->Commit());
-  EXPECT_THAT(Files(), ::testing::UnorderedElementsAre(
-                           "light.csv/in_the_way", "unfinished/.resume/identity",
-                           "unfinished/composite.mp4", "unfinished/frames/0000.png",
-                           "unfinished/light.csv"));
+  EXPECT_THAT(Files(),
+              ::testing::UnorderedElementsAre(
+                  "light.csv/in_the_way", "unfinished/.resume/identity", "unfinished/composite.mp4",
+                  "unfinished/frames/0000.png", "unfinished/light.csv"));
   EXPECT_FALSE(fs::exists(root_ / "frames"));
 }
 

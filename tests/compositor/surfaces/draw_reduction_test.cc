@@ -67,7 +67,7 @@ class Scene {
   }
   std::size_t linear_ratios() const { return reduction_.phantoms()[0].linear_ratios().size(); }
   int facing() const { return reduction_.objects()[0].facing_end() / 3; }
-  /// Of an image of four by two tiles, one a metre, with the origin in the second row.
+  /// Tiles of an image of four by two tiles, one a metre, with the origin in the second row.
   AffectedTiles tiles() const {
     SceneProjection image{.width = 256, .height = 128, .near_m = 0.1F};
     image.clip_from_position = {{0.5F, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 0, 0}, {-0.95F, 0.1F, 0, 1}};
