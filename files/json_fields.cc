@@ -1,6 +1,8 @@
 #include "files/json_fields.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <exception>
 #include <limits>
 
@@ -29,21 +31,24 @@ bool AppendNumbers(const Json& list, int depth, std::vector<double>* numbers) {
 Result<Json> ParseJson(std::string_view bytes, const std::string& name) {
   try {
     return Json::parse(bytes.begin(), bytes.end());
-  } catch (const std::exception& error) {
-    // "[json.exception.parse_error.101] parse error at line 3, column 1: …"
-    std::string what = error.what();
-    if (const std::size_t bracket = what.find("] "); bracket != std::string::npos) {
-      what.erase(0, bracket + 2);
+  } catch (const Json::parse_error& error) {
+    // `byte` counts from 1; behind the last byte the text ends within a value.
+    if (error.byte > bytes.size()) {
+      return InputError(name, "is not whole JSON: it ends within a value",
+                        "the file is cut short: get a whole copy of it");
     }
-    if (what.size() > 200) what = what.substr(0, 200) + "…";
-    // The exception quotes the last bytes read; keep the message one printable line.
-    for (char& c : what) {
-      if (static_cast<unsigned char>(c) < 0x20) c = ' ';
-    }
-    const bool cut_short = what.find("unexpected end of input") != std::string::npos;
-    return InputError(
-        name, "is not whole JSON: " + what,
-        cut_short ? "the file is cut short: get a whole copy of it" : "correct the file there");
+    const std::string_view before = bytes.substr(0, error.byte > 0 ? error.byte - 1 : 0);
+    const auto line = 1 + std::ranges::count(before, '\n');
+    const std::size_t start = before.rfind('\n');
+    const std::size_t column =
+        1 + (start == std::string_view::npos ? before.size() : before.size() - start - 1);
+    return InputError(name,
+                      "is not whole JSON: what stands at line " + std::to_string(line) +
+                          ", column " + std::to_string(column) + " cannot be read",
+                      "correct the file there");
+  } catch (const std::exception&) {
+    return InputError(name, "is not whole JSON: a number is too large to be read",
+                      "correct the file");
   }
 }
 

@@ -87,9 +87,14 @@ Result<Json> ParseYaml(std::string_view bytes, const std::string& name) {
                         "check that it is the file you mean");
     }
     return json;
-  } catch (const std::exception& error) {
-    return InputError(name, "is not whole YAML: " + std::string(error.what()),
+  } catch (const YAML::Exception& error) {
+    return InputError(name,
+                      "is not whole YAML: what stands at line " +
+                          std::to_string(error.mark.line + 1) + ", column " +
+                          std::to_string(error.mark.column + 1) + " cannot be read",
                       "correct the file there, or get a whole copy of it");
+  } catch (const std::exception&) {
+    return InputError(name, "is not whole YAML", "get a whole copy of it");
   }
 }
 

@@ -9,9 +9,9 @@ extern "C" {
 #include <libswscale/swscale.h>
 }
 
-#include <array>
 #include <memory>
 #include <string>
+#include <system_error>
 
 namespace pleinair::devices {
 
@@ -36,9 +36,18 @@ using LibavPointer = std::unique_ptr<T, LibavDeleter>;
 
 /// libav's words for its error number.
 inline std::string LibavText(int code) {
-  std::array<char, AV_ERROR_MAX_STRING_SIZE> text{};
-  av_strerror(code, text.data(), text.size());
-  return text.data();
+  if (code == AVERROR_INVALIDDATA) return "its data contradict its format";
+  if (code == AVERROR_EOF) return "it ends too early";
+  if (code == AVERROR_PATCHWELCOME || code == AVERROR(ENOSYS)) {
+    return "it uses a part of its format that cannot be decoded here";
+  }
+  // libav's own codes are large; the others are those of the system.
+  constexpr int kMaxSystemCode = 4096;
+  const int system = AVUNERROR(code);
+  if (system > 0 && system < kMaxSystemCode && system != EINVAL) {
+    return std::generic_category().message(system);
+  }
+  return "libavcodec refuses it with code " + std::to_string(code);
 }
 
 }  // namespace pleinair::devices

@@ -176,8 +176,8 @@ Result<DecodedImage> DecodeImageFile(const std::filesystem::path& file) {
       return InputError(file.string(), "is damaged: the image cannot be decoded", kWholeCopy);
     }
     return ImageFromBgr(bgr);
-  } catch (const std::exception& error) {
-    return InputError(file.string(), "cannot be decoded: " + std::string(error.what()), kWholeCopy);
+  } catch (const std::exception&) {
+    return InputError(file.string(), "is damaged: the image cannot be decoded", kWholeCopy);
   }
 }
 

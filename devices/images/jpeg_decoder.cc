@@ -19,14 +19,25 @@ struct Reporter {
   char message[JMSG_LENGTH_MAX];
 };
 
-void Keep(j_common_ptr common) {
-  auto* reporter = reinterpret_cast<Reporter*>(common->err);
-  (*reporter->manager.format_message)(common, reporter->message);
+const char* ReasonOf(int code) {
+  switch (code) {
+    case JERR_CONVERSION_NOTIMPL:
+      return "its color conversion is not supported";
+    case JERR_INPUT_EMPTY:
+    case JERR_INPUT_EOF:
+    case JWRN_JPEG_EOF:
+      return "it ends too early";
+    case JERR_OUT_OF_MEMORY:
+      return "there is not enough memory to decode it";
+    default:
+      return "its compressed data are corrupt";
+  }
 }
 
 [[noreturn]] void LeaveOnError(j_common_ptr common) {
-  Keep(common);
-  std::longjmp(reinterpret_cast<Reporter*>(common->err)->back, 1);
+  auto* reporter = reinterpret_cast<Reporter*>(common->err);
+  std::snprintf(reporter->message, sizeof reporter->message, "%s", ReasonOf(common->err->msg_code));
+  std::longjmp(reporter->back, 1);
 }
 
 // The first warning is the cause; later ones are consequences. Extra bytes between the last block

@@ -22,6 +22,7 @@ extern "C" {
 #include "devices/films/film_demuxer.h"
 #include "devices/films/film_picture.h"
 #include "devices/films/film_stamps.h"
+#include "devices/films/frame_tables.h"
 #include "devices/films/video_container.h"
 
 namespace pleinair::devices {
@@ -293,6 +294,7 @@ Result<OpenedVideo> OpenVideo(const std::filesystem::path& file, const VideoMeta
   }
   if (bytes == 0) return InputError(file.string(), "is empty", kWholeCopy);
   PLEINAIR_RETURN_IF_ERROR(CheckContainerIsWhole(file));
+  PLEINAIR_RETURN_IF_ERROR(CheckFrameTables(file));
   return Open(file, facts);
 }
 

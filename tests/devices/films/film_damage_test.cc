@@ -65,6 +65,36 @@ TEST(FilmDamage, OverwrittenImagesAreRefusedByTheFrame) {
   EXPECT_THAT(Complaint(folder.Write("bad.mov", bytes)), HasSubstr("bad.mov: is damaged"));
 }
 
+/// Adds `change` to the big-endian number of four bytes at an offset from a box's type.
+std::string WithChangedCount(std::string bytes, const std::string& type, std::size_t offset,
+                             int change) {
+  const std::size_t at = bytes.find(type) + type.size() + offset;
+  bytes.at(at + 3) = static_cast<char>(bytes.at(at + 3) + change);
+  return bytes;
+}
+
+TEST(FilmDamage, TablesThatDisagreeOnTheNumberOfFramesAreRefused) {
+  const tests::TemporaryFolder folder;
+  MadeFilm film;
+  film.ticks = tests::NtscTicks(9);
+  tests::WriteFilm(folder / "film.mov", film, DrawTexture);
+  const std::string whole = tests::Content(folder / "film.mov");
+  struct {
+    const char* table;
+    std::size_t offset;
+  } constexpr kCounts[] = {{"stsz", 8}, {"stts", 8}};
+  for (const auto& [table, offset] : kCounts) {
+    for (const int change : {-6, -1}) {
+      SCOPED_TRACE(testing::Message() << table << " " << change);
+      const auto file = folder.Write("bad.mov", WithChangedCount(whole, table, offset, change));
+      const std::string frames = std::to_string(9 + change);
+      EXPECT_THAT(Complaint(file), HasSubstr("bad.mov: is damaged: its header announces 9 frames "
+                                             "in one table and " +
+                                             frames + " in another"));
+    }
+  }
+}
+
 TEST(FilmDamage, OtherFilesAreNoFilms) {
   const tests::TemporaryFolder folder;
   // A playlist would make libavformat open the files that it names.

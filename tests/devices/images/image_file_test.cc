@@ -79,7 +79,8 @@ TEST(ImageFile, DamageInsideAJpegIsAnErrorThatNamesIt) {
   const Result<DecodedImage> decoded = DecodeImageFile(folder.Write("a.jpg", bytes));
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
   ASSERT_FALSE(decoded);
-  EXPECT_THAT(decoded.error().Message(), HasSubstr("a.jpg: the image is damaged: Corrupt JPEG"));
+  EXPECT_THAT(decoded.error().Message(),
+              HasSubstr("a.jpg: the image is damaged: its compressed data are corrupt"));
 }
 
 TEST(ImageFile, AJpegWithoutColorsIsDecoded) {
