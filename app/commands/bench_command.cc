@@ -16,6 +16,7 @@
 #include "app/options/number_range.h"
 #include "app/terminal/progress_bar.h"
 #include "base/atomic_file.h"
+#include "files/output_rule.h"
 #include "gl/shader_library.h"
 
 namespace pleinair::app {
@@ -150,10 +151,28 @@ Result<void> WriteResults(const ShadowBenchResult& result, const std::filesystem
   return WriteShadowCharts(result, folder);
 }
 
+/// Checks that no file of the user has the name of one that WriteResults() may write.
+Result<void> CheckNamesAreFree(const ShadowBenchOptions& bench,
+                               const std::filesystem::path& folder) {
+  PLEINAIR_RETURN_IF_ERROR(files::CheckFreeName(folder / "shadows.jsonl"));
+  for (const std::string& scene : bench.scenes) {
+    for (const char* const ending :
+         {".jpg", "_methods.jpg", "_errors.jpg", "_error_over_time.svg"}) {
+      PLEINAIR_RETURN_IF_ERROR(files::CheckFreeName(folder / (scene + ending)));
+    }
+    for (const shadows::ShadowMethodTraits& method : shadows::ShadowMethods()) {
+      PLEINAIR_RETURN_IF_ERROR(
+          files::CheckFreeName(folder / fmt::format("{}_{}_partitions.jpg", scene, method.name)));
+    }
+  }
+  return {};
+}
+
 Result<void> RunBench(BenchOptions& options) {
   PLEINAIR_RETURN_IF_ERROR(CheckBenchOptions(options));
   if (!options.output.empty()) {
     // Checked before the minutes of measurement.
+    PLEINAIR_RETURN_IF_ERROR(CheckNamesAreFree(options.bench, options.output));
     std::error_code error;
     std::filesystem::create_directories(options.output, error);
     if (error) return tl::make_unexpected(WriteError(options.output, error.value()));
@@ -232,7 +251,9 @@ void AddBenchCommand(CLI::App& app, CommandResult& result) {
                    "Rounds in which all methods are timed in turn; the median counts")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  command->add_option("-o,--output", options->output, "Folder for pictures, charts and the page")
+  command
+      ->add_option("-o,--output", options->output,
+                   "Folder for pictures, charts and rows; replaces no file there")
       ->type_name("DIR");
   command
       ->add_option("--shader-dir", options->shader_directory,

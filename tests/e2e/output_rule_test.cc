@@ -90,6 +90,19 @@ TEST(OutputRule, AnAccuracyRunReplacesNoFilesOfOthers) {
   ExpectRefused(RunPleinair({"accuracy", "--quick", "-o", folder / "."}), "is a recording");
 }
 
+TEST(OutputRule, AShadowBenchReplacesNoFilesOfOthers) {
+  const TemporaryFolder folder;
+  for (const char* name : {"shadows.jsonl", "trees_methods.jpg", "trees_zgaf_partitions.jpg"}) {
+    fs::create_directory(folder / "out");
+    WriteFile(folder / "out" / name, "mine");
+    ExpectRefused(
+        RunPleinair({"bench", "shadows", "--quick", "--scenes", "trees", "-o", folder / "out"}),
+        std::string(name) + ": is there already");
+    EXPECT_THAT(Listing(folder / "out"), testing::ElementsAre(name));
+    fs::remove_all(folder / "out");
+  }
+}
+
 TEST(OutputRule, AColmapModelReplacesNoFilesOfOthers) {
   const TemporaryFolder folder;
   WriteFile(folder / "path.tum", "0 0 0 1 0 0 0 1\n1 0 0 2 0 0 0 1\n");
