@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <iostream>
 #include <memory>
 #include <utility>
@@ -23,6 +24,11 @@
 namespace pleinair::app {
 namespace {
 
+constexpr std::int64_t kMegapixel = 1'000'000;
+/// Detection holds 29 bytes for a pixel: 3.5 GB for these. Larger images gain nothing, because a
+/// marker of some hundred pixels is measured to hundredths already.
+constexpr std::int64_t kMaxPixels = 120 * kMegapixel;
+
 constexpr const char* kDetectExamples =
     "Examples:\n"
     "  pleinair detect photo.jpg --calibration camera.yaml --size-mm 140\n"
@@ -35,7 +41,8 @@ constexpr const char* kDetectExamples =
     "camera_from_marker, covariance, visible_fraction, visibility (of S-G markers and targets,\n"
     "by parts of the marker), name (of targets, whose family is picture), alternative and path;\n"
     "with --track also lost: markers that are no longer seen. Without --size-mm only the targets\n"
-    "are looked for.";
+    "are looked for. The id is null where an S-G marker's border is certain and its number is\n"
+    "covered; --track and --numbers help then.";
 
 Result<tracker::SgStrategy> StrategyOf(const std::string& name) {
   if (name == "hybrid") return tracker::SgStrategy::kHybrid;
@@ -48,6 +55,14 @@ Result<tracker::SgStrategy> StrategyOf(const std::string& name) {
 Result<void> CheckPicture(const std::string& picture, const CameraModel& camera,
                           const std::string& calibration) {
   PLEINAIR_ASSIGN_OR_RETURN(const ImageSize size, devices::InspectImageFile(picture));
+  const std::int64_t pixels = std::int64_t{size.width} * size.height;
+  if (pixels > kMaxPixels) {
+    return InputError(
+        picture,
+        "has " + std::to_string(pixels / kMegapixel) + " megapixels; detect takes up to " +
+            std::to_string(kMaxPixels / kMegapixel) + ", for each of which it needs 30 MB",
+        "halve its width and height, and those of the calibration with them");
+  }
   if (size.width == camera.width && size.height == camera.height) return {};
   const auto text = [](int width, int height) {
     return std::to_string(width) + "x" + std::to_string(height);
@@ -125,7 +140,10 @@ void AddDetectCommand(CLI::App& app, CommandResult& result) {
   auto arguments = std::make_shared<DetectArguments>();
   CLI::App* command = app.add_subcommand("detect", "Find markers and their poses in images");
   command->footer(kDetectExamples);
-  command->add_option("PICTURES", arguments->pictures, "PNG or JPEG images")->required();
+  command
+      ->add_option("PICTURES", arguments->pictures,
+                   "PNG or JPEG images, up to 120 megapixels (30 MB of memory each)")
+      ->required();
   command
       ->add_option("--calibration", arguments->calibration,
                    "Camera calibration (own JSON, OpenCV YAML, ROS camera_info, Kalibr)")

@@ -12,6 +12,7 @@
 
 #include "base/srgb.h"
 #include "tests/e2e/command_output.h"
+#include "tests/e2e/refusal.h"
 #include "tests/e2e/run_program.h"
 
 namespace pleinair::e2e {
@@ -180,6 +181,29 @@ TEST_F(SgDetect, FollowsAMarkerAndSaysSinceWhenItIsLost) {
     EXPECT_EQ(lost, json::parse(R"([{"family": "sg", "id": 17, "frames": )" +
                                 std::to_string(i - 1) + "}]"));
   }
+}
+
+TEST_F(SgDetect, ReportsAMarkerWhoseNumberIsCoveredWithoutOne) {
+  cv::Mat picture = With({70, 40});
+  // The middle half of the sheet holds all cells.
+  const cv::Rect sheet(70, 40, print_.cols, print_.rows);
+  const cv::Rect cells(sheet.x + sheet.width * 7 / 24, sheet.y + sheet.height * 7 / 24,
+                       sheet.width * 10 / 24, sheet.height * 10 / 24);
+  picture(cells) = cv::Scalar(120);
+  const nlohmann::json markers = JsonLines(Detect({Save("held.png", picture)})).at(0).at("markers");
+  ASSERT_EQ(markers.size(), 1U);
+  EXPECT_TRUE(markers[0].at("id").is_null());
+  EXPECT_EQ(markers[0].at("camera_from_marker").at("translation_m").size(), 3U);
+}
+
+TEST_F(SgDetect, RefusesImagesThatNeedGigabytes) {
+  // A header of 16384x16384 and no pixels: they are not read.
+  const std::string png(
+      "\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR\0\0\x40\0\0\0\x40\0\x08\x02\0\0\0\x26\xaa\x87\xd3"
+      "\0\0\0\0IEND\xae\x42\x60\x82",
+      45);
+  WriteFile(folder_ / "large.png", png);
+  ExpectRefused(Detect({folder_ / "large.png"}), "large.png: has 268 megapixels");
 }
 
 TEST_F(SgDetect, WarnsOfAMirroredMarker) {
