@@ -101,7 +101,8 @@ Result<void> CheckLiveOptions(const CLI::App& command, const LiveArguments& argu
 Result<RgbImage> DrawAll(LiveSession& session, const LiveSource& source,
                          const LiveArguments& arguments, LiveReport* report) {
   using Clock = std::chrono::steady_clock;
-  const auto start = Clock::now();
+  // The time limit counts from the first frame drawn, or from the opening while there is none.
+  auto start = Clock::now();
   RgbImage last;
   while (!session.finished() && !InterruptGuard::Interrupted()) {
     if (arguments.seconds &&
@@ -111,7 +112,9 @@ Result<RgbImage> DrawAll(LiveSession& session, const LiveSource& source,
     ReportEvents(source.camera, arguments.json);
     if (const auto interval = report->Poll(session)) Report(*interval, arguments.json);
     PLEINAIR_ASSIGN_OR_RETURN(auto drawn, session.Draw(std::chrono::milliseconds(50)));
-    if (drawn) last = std::move(drawn->picture);
+    if (!drawn) continue;
+    if (last.empty()) start = Clock::now();
+    last = std::move(drawn->picture);
   }
   return last;
 }
@@ -282,7 +285,8 @@ void AddLiveCommand(CLI::App& app, CommandResult& result) {
   command->add_flag("--headless", a.headless, "Without a window");
   command
       ->add_option("--seconds", a.seconds,
-                   "End this many seconds after the session has opened, which takes some more")
+                   "End this many seconds after the first frame is shown, or after the session has "
+                   "opened if the camera gives none. Opening takes some more")
       ->check(NumberRange(0.0, 1e9));
   command->add_option("--window", a.window.size, "Size of the window, WIDTHxHEIGHT");
   command->add_option("--ui-scale", a.window.ui_scale, "Scale of the window's text; 1 is usual")

@@ -101,7 +101,8 @@ class LiveWindow {
   }
 
   Result<void> Run() {
-    const auto start = Clock::now();
+    auto start = Clock::now();
+    bool has_shown = false;
     while (glfwWindowShouldClose(screen_.window()) == GLFW_FALSE && !state_.requests.close &&
            !InterruptGuard::Interrupted()) {
       const double ran_s = std::chrono::duration<double>(Clock::now() - start).count();
@@ -112,7 +113,11 @@ class LiveWindow {
       Draw();
       PLEINAIR_RETURN_IF_ERROR(DoWishes());
       glfwSwapBuffers(screen_.window());
-      if (fresh_) session_.Shown(*std::exchange(fresh_, std::nullopt), frames_->late());
+      if (fresh_) {
+        if (!std::exchange(has_shown, true))
+          start = Clock::now();  // The time limit counts from it.
+        session_.Shown(*std::exchange(fresh_, std::nullopt), frames_->late());
+      }
       if (!(state_.edit == edit_)) {
         edit_ = state_.edit;
         session_.Edit(edit_);
