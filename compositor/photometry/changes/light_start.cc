@@ -31,11 +31,12 @@ std::vector<std::size_t> FramesInFullSun(const Brightness& sunlit, const Brightn
   for (std::size_t t = 0; t < depths.size(); ++t) {
     if (!sunlit[t] || !shaded[t]) continue;
     depths[t] = *sunlit[t] - *shaded[t];
-    known.push_back(depths[t]);
+    known.push_back(-depths[t]);
   }
   std::vector<std::size_t> frames;
   if (known.empty()) return frames;
-  const double full = Quantile(known, kDeepest) - kAsDeep;
+  // From the deepest down, so that of few frames the deepest counts.
+  const double full = -Quantile(known, 1.0 - kDeepest) - kAsDeep;
   for (std::size_t t = 0; t < depths.size(); ++t) {
     if (depths[t] >= full) frames.push_back(t);
   }

@@ -314,11 +314,14 @@ TEST(LightEstimator, SettlesANightWhoseRatioIsGiven) {
 }
 
 TEST(LightEstimator, BelievesTheWordsAloneWhereTheSunStandsElsewhere) {
-  const LightEstimate found = Estimate(60.0, {});
-  EXPECT_TRUE(found.measured.sun_doubtful);
-  EXPECT_EQ(found.measured.sun_source, MeasuredLight::Source::kDescription);
-  EXPECT_EQ(found.skies.source, nullptr);
-  EXPECT_EQ(found.skies.sun_transmittance, nullptr) << "the phantoms' own shadows would be leaves'";
+  for (const double off_deg : {60.0, 30.0, -30.0}) {
+    const LightEstimate found = Estimate(off_deg, {});
+    EXPECT_TRUE(found.measured.sun_doubtful) << off_deg;
+    EXPECT_EQ(found.measured.sun_source, MeasuredLight::Source::kDescription) << off_deg;
+    EXPECT_EQ(found.measured.heading_source, MeasuredLight::Source::kDescription) << off_deg;
+    EXPECT_EQ(found.skies.source, nullptr) << off_deg;
+    EXPECT_EQ(found.skies.sun_transmittance, nullptr) << "phantoms' own shadows would be leaves'";
+  }
 }
 
 }  // namespace

@@ -5,11 +5,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <numbers>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "compositor/light/sampling.h"
 #include "compositor/photometry/changes/light_changes.h"
 #include "compositor/photometry/changes/light_probes.h"
 #include "tests/compositor/photometry/photographed_yard.h"
@@ -73,6 +75,61 @@ inline void WalkThroughTheSun(int frame, RgbImage* image) {
         (*image)(x + 8 * frame, y, c) = CameraResponse{}.Encoded8(cloth * light, c);
       }
     }
+  }
+}
+
+/// Which probes of the film under a cloud the sun reaches.
+inline const std::vector<bool>& SunlitProbes() {
+  static const std::vector<bool> sunlit = [] {
+    std::vector<bool> found;
+    for (const ProbeLight& light : LightOn(CloudedFilm().probes(), Yard().phantoms(),
+                                           Yard().model(), Yard().marker_from_world())) {
+      found.push_back(light.IsSunlit());
+    }
+    return found;
+  }();
+  return sunlit;
+}
+
+/// From the fifth frame on, a person hides 35 % of the sunlit probes of CloudedFilm(), others in
+/// each frame, by cloth of any brightness.
+inline void HideSunlitProbes(std::vector<ProbedFrame>* frames) {
+  for (std::size_t t = 5; t < frames->size(); ++t) {
+    ProbedFrame& frame = (*frames)[t];
+    for (std::size_t k = 0; k < frame.probes.size(); ++k) {
+      const std::uint32_t probe = frame.probes[k];
+      const auto frame_number = static_cast<std::uint32_t>(t);
+      if (!SunlitProbes()[probe] || UnitFromHash(Hash(probe, frame_number)) > 0.35) continue;
+      const double cloth = std::exp(3.0 * UnitFromHash(Hash(frame_number, probe)) - 2.0);
+      for (float& value : frame.linear[k]) value *= static_cast<float>(cloth);
+    }
+  }
+}
+
+/// From the third frame on, as the cloud comes, a hand covers the marker.
+inline void CoverTheMarker(std::vector<ProbedFrame>* frames) {
+  for (std::size_t t = 3; t < frames->size(); ++t) {
+    ProbedFrame& frame = (*frames)[t];
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < frame.probes.size(); ++k) {
+      if (CloudedFilm().probes()[frame.probes[k]].surface < 0) continue;
+      frame.probes[kept] = frame.probes[k];
+      frame.linear[kept++] = frame.linear[k];
+    }
+    frame.probes.resize(kept);
+    frame.linear.resize(kept);
+  }
+}
+
+/// Exposure of a frame of 30 Hz under lamps of 50 Hz, whose light pulsates at 100 Hz.
+inline double UnderLamps(int frame) {
+  return 1.0 + 0.1 * std::sin(2.0 * std::numbers::pi * 100.0 / 30.0 * frame);
+}
+
+/// Gives the frames the times of a film of 30 Hz.
+inline void FilmAt30Hz(std::vector<ProbedFrame>* frames) {
+  for (std::size_t t = 0; t < frames->size(); ++t) {
+    (*frames)[t].timestamp_ns = static_cast<std::int64_t>(1e9 / 30.0 * static_cast<double>(t));
   }
 }
 

@@ -15,13 +15,17 @@ namespace pleinair::compositor {
 namespace {
 
 using testing::CloudedFilm;
+using testing::CoverTheMarker;
 using testing::ErrorsOf;
+using testing::FilmAt30Hz;
 using testing::FilmYard;
+using testing::HideSunlitProbes;
 using testing::LightErrors;
 using testing::Moment;
 using testing::MoveOn;
 using testing::PhotographedYard;
 using testing::UnderACloud;
+using testing::UnderLamps;
 using testing::WalkThroughTheSun;
 using testing::Yard;
 
@@ -96,6 +100,33 @@ TEST(ForwardLight, FollowsACloudUnderATreeThatNoPhantomStandsFor) {
 
 TEST(ForwardLight, FollowsACloudWhilePeopleWalkThroughTheSun) {
   ExpectFollowed(Follow(FilmYard(UnderACloud, {}, WalkThroughTheSun)), UnderACloud);
+}
+
+TEST(ForwardLight, FollowsACloudWhileAPersonHidesAThirdOfTheSunlitProbes) {
+  ExpectFollowed(Follow(CloudedFilm(), HideSunlitProbes), UnderACloud);
+}
+
+TEST(ForwardLight, FollowsACloudThatComesWithAHandOverTheMarker) {
+  ExpectFollowed(Follow(CloudedFilm(), CoverTheMarker), UnderACloud);
+}
+
+TEST(ForwardLight, FollowsACloudBehindAGapInWhichNoFrameHasAPose) {
+  // The film goes on under the darkest part of the cloud.
+  const auto cut = [](std::vector<ProbedFrame>* frames) {
+    frames->erase(frames->begin() + 3, frames->begin() + 8);
+  };
+  for (const FrameLight& frame : Follow(CloudedFilm(), cut).frames) {
+    const Moment now = UnderACloud(static_cast<int>(frame.frame_index));
+    EXPECT_NEAR(MeanLog(frame.sun), std::log(now.sun), 0.15) << frame.frame_index;
+    EXPECT_NEAR(MeanLog(frame.sky), std::log(now.sky), 0.08) << frame.frame_index;
+  }
+}
+
+TEST(ForwardLight, TakesLampsThatFlickerForExposure) {
+  const auto moment = [](int frame) { return Moment{1.0, 1.0, UnderLamps(frame)}; };
+  const Followed found = Follow(FilmYard(moment), FilmAt30Hz);
+  EXPECT_FALSE(found.changes.back());
+  for (const FrameLight& frame : found.frames) EXPECT_NEAR(frame.LogRatio(), 0.0, 0.02);
 }
 
 TEST(ForwardLight, FollowsACloudOverACameraThatMovesOn) {

@@ -14,13 +14,17 @@ namespace pleinair::compositor {
 namespace {
 
 using testing::CloudedFilm;
+using testing::CoverTheMarker;
 using testing::ErrorsOf;
+using testing::FilmAt30Hz;
 using testing::FilmYard;
+using testing::HideSunlitProbes;
 using testing::LightErrors;
 using testing::Moment;
 using testing::MoveOn;
 using testing::PhotographedYard;
 using testing::UnderACloud;
+using testing::UnderLamps;
 using testing::WalkThroughTheSun;
 using testing::Yard;
 
@@ -42,12 +46,13 @@ LightChanges Follow(const std::function<Moment(int)>& moment,
 
 /// The same for changed readings of a film.
 LightChanges FollowSpoiled(const LightProbes& probes,
-                           const std::function<void(std::vector<ProbedFrame>*)>& spoil) {
+                           const std::function<void(std::vector<ProbedFrame>*)>& spoil,
+                           const std::vector<std::size_t>& reference = {0, 1}) {
   const auto lights =
       LightOn(probes.probes(), Yard().phantoms(), Yard().model(), Yard().marker_from_world());
   auto frames = probes.frames();
   spoil(&frames);
-  return FitLightChanges(frames, probes.probes(), lights, {0, 1});
+  return FitLightChanges(frames, probes.probes(), lights, reference);
 }
 
 void ExpectFollowed(const LightChanges& found, const std::function<Moment(int)>& moment) {
@@ -123,6 +128,44 @@ TEST(LightChanges, FollowACloudWhileTheExposureJumps) {
     return now;
   };
   ExpectFollowed(Follow(moment), moment);
+}
+
+TEST(LightChanges, FollowACloudWhileAPersonHidesAThirdOfTheSunlitProbes) {
+  ExpectFollowed(FollowSpoiled(CloudedFilm(), HideSunlitProbes), UnderACloud);
+}
+
+TEST(LightChanges, FollowACloudThatComesWithAHandOverTheMarker) {
+  ExpectFollowed(FollowSpoiled(CloudedFilm(), CoverTheMarker), UnderACloud);
+}
+
+TEST(LightChanges, TakeLampsThatFlickerForExposure) {
+  const auto moment = [](int frame) { return Moment{1.0, 1.0, UnderLamps(frame)}; };
+  const LightChanges found = FollowSpoiled(FilmYard(moment), FilmAt30Hz);
+  EXPECT_FALSE(found.changes);
+  // The mean of the two reference frames has the exposure 1.
+  const double mean = (std::log(UnderLamps(0)) + std::log(UnderLamps(1))) / 2;
+  for (const FrameLight& frame : found.frames) {
+    const double exposure = std::log(UnderLamps(static_cast<int>(frame.frame_index))) - mean;
+    EXPECT_NEAR(MeanLog(frame.sun), exposure, 0.01) << frame.frame_index;
+    EXPECT_NEAR(MeanLog(frame.sky), exposure, 0.01) << frame.frame_index;
+  }
+}
+
+TEST(LightChanges, AreNotProvedByOneTwoOrThreeFrames) {
+  for (const std::vector<int>& kept : {std::vector{2}, {2, 8}, {2, 5, 8}, {0, 1, 2}}) {
+    const auto cut = [&](std::vector<ProbedFrame>* frames) {
+      std::vector<ProbedFrame> few;
+      for (const int frame : kept) few.push_back((*frames)[frame]);
+      *frames = few;
+    };
+    const LightChanges found = FollowSpoiled(CloudedFilm(), cut, {});
+    EXPECT_FALSE(found.changes);
+    ASSERT_EQ(found.frames.size(), kept.size());
+    for (const FrameLight& frame : found.frames) {
+      EXPECT_TRUE(std::isfinite(MeanLog(frame.sun)) && std::isfinite(MeanLog(frame.sky)));
+      EXPECT_NEAR(frame.LogRatio(), 0.0, 0.1) << "one light for all frames";
+    }
+  }
 }
 
 TEST(LightChanges, AreNoneInSteadyLight) {
