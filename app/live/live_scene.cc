@@ -39,9 +39,9 @@ bool LiveScene::ShowsOtherMoment() const {
          edit_.longitude_deg != described_.place_time.longitude_deg;
 }
 
-session::FollowedLight LiveScene::Followed() const {
+session::FollowedLight LiveScene::FollowedIn(std::int64_t frame_index) const {
   if (!changes_ || ShowsOtherMoment()) return {};
-  return changes_->newest().light;
+  return changes_->Of(frame_index);
 }
 
 /// Draws with a new light, and refers the followed light to it.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -42,8 +43,8 @@ class LiveScene {
               const Transform<Camera, Marker>& camera_from_marker,
               const scene::MarkerReflectance& marker);
 
-  /// How the light of the newest frame differs from that in use.
-  session::FollowedLight Followed() const;
+  /// How the light of a frame differs from that in use (session::LiveLight::Of()).
+  session::FollowedLight FollowedIn(std::int64_t frame_index) const;
 
   /// Computes the first light at `start`, passes it to the renderer, and continues in the
   /// background. Errors: the geometry.

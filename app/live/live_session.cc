@@ -181,7 +181,7 @@ Result<std::optional<DrawnFrame>> LiveSession::DrawOne(Tracked tracked) {
   }
   PLEINAIR_ASSIGN_OR_RETURN(
       session::ComposedFrame composed,
-      pipeline_->Compose(frame.rgb.view(), tracked.pose, moment, scene_.Followed()));
+      pipeline_->Compose(frame.rgb.view(), tracked.pose, moment, scene_.FollowedIn(frame.index)));
   drawn.picture = std::move(composed.image);
   drawn.light = renderer.light();
   if (composed.light) {

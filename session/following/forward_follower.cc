@@ -16,13 +16,13 @@ constexpr std::size_t kProbesAtOnce = 128;
 constexpr double kFadeIn_s = 0.2;
 // Logarithm of sun over sky below its largest value, by more than its error, at which a frame still
 // has the full sun.
-constexpr double kFullSun = 0.1;
+constexpr double kFullSunReach = 0.1;
 // Fall of that largest value, logarithm per second: the drift that LightFilter expects in a minute.
 constexpr double kFullSunFall_per_s = 0.1 / 60.0;
 // Time over which the sun of an estimate's frames is averaged: eight frames at 0.3 s.
 constexpr double kEstimate_s = 2.4;
 
-double SecondsBetween(std::int64_t from_ns, std::int64_t to_ns) {
+double ElapsedSeconds(std::int64_t from_ns, std::int64_t to_ns) {
   return 1e-9 * static_cast<double>(to_ns - from_ns);
 }
 
@@ -91,7 +91,7 @@ void ForwardFollower::Add(ImageView<const std::uint8_t> rgb, const Transform<Cam
   if (!current_) return;
   const std::int64_t before_ns = newest_.timestamp_ns;
   newest_ = current_->forward.Add(probe(current_.get()));
-  NoteSun(std::max(0.0, SecondsBetween(before_ns, timestamp_ns)));
+  NoteSun(std::max(0.0, ElapsedSeconds(before_ns, timestamp_ns)));
   if (followed_since_ns_) return;
   steady_.Add(current_->on_marker.Factor(newest_.sun, newest_.sky), {});
   if (!current_->forward.changes()) return;
@@ -138,7 +138,7 @@ FollowedLight ForwardFollower::Newest() const {
   light.source = newest_.source;
   if (!followed_since_ns_ || !current_) return light;
   const double weight =
-      std::clamp(SecondsBetween(*followed_since_ns_, newest_.timestamp_ns) / kFadeIn_s, 0.0, 1.0);
+      std::clamp(ElapsedSeconds(*followed_since_ns_, newest_.timestamp_ns) / kFadeIn_s, 0.0, 1.0);
   const LinearRgb one{1.0, 1.0, 1.0};
   light.mix.sun = Power(newest_.sun / newest_.sky, weight);
   light.marker_light = current_->on_marker.Factor(newest_.sun, newest_.sky) / marker_light_;
@@ -148,7 +148,7 @@ FollowedLight ForwardFollower::Newest() const {
 }
 
 bool ForwardFollower::IsInFullSun() const {
-  return newest_.LogRatio() >= full_sun_.largest - kFullSun - newest_.log_ratio_error;
+  return newest_.LogRatio() >= full_sun_.largest - kFullSunReach - newest_.log_ratio_error;
 }
 
 }  // namespace pleinair::session

@@ -1,10 +1,19 @@
 #include "session/following/live_light.h"
 
+#include <cstddef>
+#include <iterator>
 #include <utility>
 
 #include "session/following/low_priority.h"
 
 namespace pleinair::session {
+
+namespace {
+
+// Frames whose light is kept: three seconds of them.
+constexpr std::size_t kKept = 100;
+
+}  // namespace
 
 LiveLight::LiveLight(const CameraModel& camera, const CameraResponse& response)
     : follower_(camera, response) {
@@ -38,13 +47,18 @@ void LiveLight::Show(std::shared_ptr<const devices::Frame> frame,
   changed_.notify_all();
 }
 
+FollowedLight LiveLight::Of(std::int64_t frame_index) const {
+  const std::lock_guard lock(mutex_);
+  const auto after = shared_.lights.upper_bound(frame_index);
+  return after == shared_.lights.begin() ? FollowedLight{} : std::prev(after)->second;
+}
+
 LiveLight::Newest LiveLight::newest() const {
   const std::lock_guard lock(mutex_);
   return shared_.newest;
 }
 
 void LiveLight::Follow() {
-  LowerPriority();
   std::unique_lock lock(mutex_);
   while (true) {
     changed_.wait(lock, [&] { return shared_.stop || shared_.shown; });
@@ -59,10 +73,12 @@ void LiveLight::Follow() {
     follower_.Add(shown.frame->rgb.view(), shown.camera_from_marker, shown.marker,
                   shown.frame->index, shown.frame->timestamp_ns);
     auto to_light = follower_.ProbesWithoutLight();
-    Newest newest{follower_.Newest(), follower_.IsInFullSun()};
+    const FollowedLight light = follower_.Newest();
+    const bool in_full_sun = follower_.IsInFullSun();
     lock.lock();
-    newest.frames = shared_.newest.frames + 1;
-    shared_.newest = newest;
+    shared_.lights[shown.frame->index] = light;
+    if (shared_.lights.size() > kKept) shared_.lights.erase(shared_.lights.begin());
+    shared_.newest = {in_full_sun, shared_.newest.frames + 1};
     if (!to_light || shared_.lighting) continue;
     shared_.to_light = std::move(to_light);
     shared_.lighting = true;

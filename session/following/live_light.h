@@ -2,6 +2,7 @@
 
 #include <condition_variable>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -20,9 +21,9 @@
 namespace pleinair::session {
 
 /// Follows sun and sky of a live session (ForwardFollower). No frame waits for it: it has two
-/// threads of low priority. One estimates the light of the newest frame, the other traces the light
-/// on new probes. A frame is drawn with the newest light, which is that of the frame or of one
-/// before.
+/// threads. One estimates the light of the newest frame. The other, of low priority, traces the
+/// light on new probes. A frame is drawn with its own light, or with that of the last frame before
+/// it whose light is known.
 class LiveLight {
  public:
   /// `camera`: the lens of the frames.
@@ -37,9 +38,12 @@ class LiveLight {
             const Transform<Camera, Marker>& camera_from_marker,
             const scene::MarkerReflectance& marker);
 
-  /// State of the newest frame whose light is known.
+  /// Light of a frame, or of the last one before it that was followed. Reaches back to the last
+  /// hundred frames that were followed.
+  FollowedLight Of(std::int64_t frame_index) const;
+
+  /// State of the newest frame that was followed.
   struct Newest {
-    FollowedLight light;
     bool in_full_sun = true;  ///< See ForwardFollower::IsInFullSun().
     std::int64_t frames = 0;  ///< Frames followed so far.
   };
@@ -66,6 +70,7 @@ class LiveLight {
     std::optional<ProbesToLight> to_light{};
     bool lighting = false;  // Probes are being lit, or their light waits to be taken.
     std::optional<Lights> lit{};
+    std::map<std::int64_t, FollowedLight> lights{};  // By frame.
     Newest newest{};
   };
 
