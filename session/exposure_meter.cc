@@ -1,6 +1,21 @@
 #include "session/exposure_meter.h"
 
+#include <cmath>
+
 namespace pleinair::session {
+namespace {
+
+// Relative standard deviations that no further frame reduces: of the marker's stated reflectance
+// with the light on it, and of the correction for a marker in shade, as a part of its logarithm.
+// Both by made scenes (docs/measurements/light.md#calibration).
+constexpr double kMarkerError = 0.03, kShadeError = 0.15;
+
+LinearRgb WithDoubt(LinearRgb error, LinearRgb marker_shade) {
+  const double doubt = std::hypot(kMarkerError, kShadeError * MeanLog(marker_shade));
+  return {std::hypot(error.r, doubt), std::hypot(error.g, doubt), std::hypot(error.b, doubt)};
+}
+
+}  // namespace
 
 void ExposureMeter::Read(ImageView<const std::uint8_t> rgb, const CameraModel& camera,
                          const std::optional<Transform<Camera, Marker>>& camera_from_marker,
@@ -25,7 +40,9 @@ void ExposureMeter::Read(ImageView<const std::uint8_t> rgb, const CameraModel& c
       filter_.empty() ? ExposureScaleSource::kGuess : ExposureScaleSource::kMarker;
   last_ = filter_.empty() ? guess_ : filter_.ExposureScale();
   summary->exposure_scale = last_ * followed.exposure;
-  if (!filter_.empty()) summary->exposure_scale_error = filter_.Error();
+  if (!filter_.empty()) {
+    summary->exposure_scale_error = WithDoubt(filter_.Error(), marker_shade);
+  }
   summary->exposures.change = filter_.Change();
 }
 

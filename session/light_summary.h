@@ -64,7 +64,7 @@ struct LightSummary {
   ExposureScaleSource exposure_scale_source = ExposureScaleSource::kMarker;
   LinearRgb exposure_scale;  ///< Display-linear value per cd/m².
   FrameLightSummary frame;
-  /// See ExposureFilter::Error(); only for kMarker.
+  /// ExposureFilter::Error() with the errors that all frames share; only for kMarker.
   LinearRgb exposure_scale_error;
   ExposureHistory exposures;
   /// Blur and noise of the last frames. Empty where they are not matched or cannot be measured.

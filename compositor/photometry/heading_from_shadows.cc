@@ -20,6 +20,9 @@ constexpr double kOutlier = 1.5;
 constexpr double kSignificance = 4.0;
 constexpr double kMaxUncertainty_deg = 1.0;
 constexpr double kMinContrast = 0.08;
+// Error of the marker's attitude beside the phantoms, which all edges share: 0.9 mrad, about that
+// of a pose in a small image. Below a high sun it turns shadows far.
+constexpr double kTilt_deg = 0.05;
 constexpr int kMinCells = 4;
 
 /// Surface samples of one cell, as indices into the samples, with their brightness relative to the
@@ -217,8 +220,10 @@ std::optional<HeadingEstimate> EstimateHeading(const PhantomRays& phantoms,
       std::fabs(best) > kMaxHeadingError_deg) {
     return std::nullopt;
   }
-  return HeadingEstimate{FromDegrees(best), FromDegrees(uncertainty_deg), whole.Contrast(),
-                         whole.cells};
+  const double sine = std::min(1.0, Dot(Normalized(up), Normalized(to_sun)));
+  const double tilt_deg = kTilt_deg * sine / std::sqrt(std::max(1e-6, 1.0 - sine * sine));
+  return HeadingEstimate{FromDegrees(best), FromDegrees(std::hypot(uncertainty_deg, tilt_deg)),
+                         whole.Contrast(), whole.cells};
 }
 
 }  // namespace pleinair::compositor
