@@ -137,7 +137,7 @@ TEST(Tessellation, InterpolatesAllAttributesWhereverEdgesAreSplit) {
 
 TEST(PatchScene, ReflectsTheMeanOfVertexColorsByArea) {
   // A white square, and beside it a small red one with most of the vertices.
-  auto object = testing::Ground(0.02, {1.0F, 1.0F, 1.0F}, false, 0.3);
+  auto object = testing::Ground(0.02, {0.5F, 0.5F, 0.5F}, false, 0.3);
   Mesh& mesh = object->meshes[0];
   mesh.details.resize(4);
   for (int i = 0; i < 16; ++i) {
@@ -151,8 +151,8 @@ TEST(PatchScene, ReflectsTheMeanOfVertexColorsByArea) {
   ASSERT_TRUE(scene) << scene.error().Message();
   ASSERT_EQ(scene->mesh_sides.size(), 2U);  // Front and back.
   // 16 mm² of red, 1,600 mm² of white.
-  EXPECT_NEAR(scene->mesh_sides[0].albedo[0], 1.0F, 1e-4);
-  EXPECT_NEAR(scene->mesh_sides[0].albedo[1], 1.0 / 1.01, 1e-3);
+  EXPECT_NEAR(scene->mesh_sides[0].albedo[0], 0.5F, 1e-4);
+  EXPECT_NEAR(scene->mesh_sides[0].albedo[1], 0.5 / 1.01, 5e-4);
 }
 
 TEST(Tessellation, StaysBelowItsLimit) {
