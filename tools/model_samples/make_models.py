@@ -3,8 +3,9 @@
 
   tools/model_samples/make_models.py FOLDER
   pleinair model FOLDER/*.gltf -o FOLDER/
+  tools/model_samples/join_sheets.py FOLDER docs/images/model_features.jpg
 
-docs/guide/models.md shows their sheets. Needs nothing but Python.
+docs/guide/models.md shows the image. Needs nothing but Python.
 """
 import base64
 import json
@@ -14,11 +15,11 @@ import struct
 import sys
 import zlib
 
-FLOAT, SHORT, BYTE = 5126, 5123, 5121
+FLOAT, SHORT, BYTE = 5126, 5123, 5121  # Integers without a sign.
 
 
 def png(width, height, color):
-    """An 8-bit RGB picture; color(x, y) gives three values from 0 to 1."""
+    """An 8-bit picture; color(x, y) gives RGB or RGBA from 0 to 1."""
     rows = b"".join(
         b"\0" + bytes(round(255 * min(max(v, 0), 1)) for x in range(width) for v in color(x, y))
         for y in range(height))
@@ -27,7 +28,8 @@ def png(width, height, color):
         body = kind + data
         return struct.pack(">I", len(data)) + body + struct.pack(">I", zlib.crc32(body))
 
-    header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
+    header = struct.pack(">IIBBBBB", width, height, 8, 6 if len(color(0, 0)) == 4 else 2,
+                         0, 0, 0)
     return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows, 9)) +
             chunk(b"IEND", b""))
 
@@ -166,6 +168,65 @@ def transformed(gltf):
     return material
 
 
+def metal(gltf):
+    """Stripes of matt paint and of metal, rougher from top to bottom."""
+    texture = gltf.texture(png(64, 64, lambda x, y: (0, 0.15 + 0.75 * y / 63,
+                                                     1 if x // 8 % 2 else 0)))
+    material = paint((0.7, 0.45, 0.25), 1.0, 1.0)
+    material["pbrMetallicRoughness"]["metallicRoughnessTexture"] = {"index": texture}
+    return material
+
+
+def holes(gltf):
+    """Round holes by the alpha of a texture."""
+    texture = gltf.texture(png(128, 64, lambda x, y: (
+        0.75, 0.6, 0.2, 0.0 if (x % 16 - 7.5) ** 2 + (y % 16 - 7.5) ** 2 < 24 else 1.0)))
+    material = paint((1, 1, 1), 0.7)
+    material["pbrMetallicRoughness"]["baseColorTexture"] = {"index": texture}
+    return {**material, "alphaMode": "MASK", "alphaCutoff": 0.5, "doubleSided": True}
+
+
+def quantized():
+    """A ball whose positions are whole numbers, scaled by its node."""
+    gltf = Gltf()
+    positions, normals, _, indices = ball()
+    steps = 4000
+    gltf.json["nodes"] = [{"mesh": 0, "scale": [1 / steps] * 3, "translation": [-0.5, 0, -0.5]}]
+    whole = [tuple(round(steps * (v + 0.5 * (c != 1))) for c, v in enumerate(p)) + (0,)
+             for p in positions]
+    view = gltf.view(struct.pack("<%dH" % (4 * len(whole)), *(v for p in whole for v in p)))
+    gltf.json["bufferViews"][view]["byteStride"] = 8
+    gltf.json["accessors"].append({
+        "bufferView": view, "componentType": SHORT, "count": len(whole), "type": "VEC3",
+        "min": [min(p[c] for p in whole) for c in range(3)],
+        "max": [max(p[c] for p in whole) for c in range(3)]})
+    position = len(gltf.json["accessors"]) - 1
+    gltf.mesh({"POSITION": position, "NORMAL": gltf.accessor(normals, "VEC3")}, indices,
+              paint((0.3, 0.4, 0.5)))
+    gltf.json["extensionsUsed"] = gltf.json["extensionsRequired"] = ["KHR_mesh_quantization"]
+    return gltf
+
+
+def bent_leaf():
+    """A bent sheet that lets light through."""
+    gltf = Gltf()
+    positions, indices = [], []
+    columns = 24
+    for row in (0.02, 1.0):
+        for column in range(columns + 1):
+            turn = math.radians(-60 + 120 * column / columns)
+            positions.append((0.5 * math.sin(turn), row, 0.35 * math.cos(turn) - 0.2))
+    for column in range(columns):
+        a, b = column, column + columns + 1
+        indices += [a, a + 1, b, a + 1, b + 1, b]
+    gltf.mesh({"POSITION": gltf.accessor(positions, "VEC3")}, indices,
+              {**paint((0.2, 0.35, 0.08)), "doubleSided": True, "extensions": {
+                  "KHR_materials_diffuse_transmission": {
+                      "diffuseTransmissionFactor": 0.5,
+                      "diffuseTransmissionColorFactor": [0.45, 0.7, 0.1]}}})
+    return gltf
+
+
 def pane():
     """A pane of glass on edge, before a ball."""
     gltf = ball_file(paint((0.6, 0.1, 0.08)))
@@ -225,8 +286,13 @@ def morphed():
     gltf = ball_file(paint((0.75, 0.6, 0.4)))
     shape = ball()
     deltas = [(-0.15 * x, 0.35 * y * y, -0.15 * z) for x, y, z in shape[0]]
+    turned = []
+    for (_, y, _), n in zip(shape[0], shape[1]):
+        egg = (n[0] / 0.85, n[1] / (1 + 0.7 * y), n[2] / 0.85)
+        size = math.sqrt(sum(v * v for v in egg))
+        turned.append(tuple(v / size - n[c] for c, v in enumerate(egg)))
     gltf.json["meshes"][0]["primitives"][0]["targets"] = [
-        {"POSITION": gltf.accessor(deltas, "VEC3")}]
+        {"POSITION": gltf.accessor(deltas, "VEC3"), "NORMAL": gltf.accessor(turned, "VEC3")}]
     gltf.json["meshes"][0]["weights"] = [1.0]
     return gltf
 
@@ -245,7 +311,11 @@ def samples():
         **extension("ior", ior=2.2),
         **extension("specular", specularColorFactor=[1.0, 0.75, 0.3])}))
     yield "unlit", ball_file(paint((0.1, 0.5, 0.6), extensions=extension("unlit")))
+    yield "metallic_roughness", ball_file(metal)
+    yield "alpha_mask", ball_file(holes)
+    yield "quantization", quantized()
     yield "transmission", pane()
+    yield "diffuse_transmission", bent_leaf()
     yield "skin", bent()
     yield "morph_target", morphed()
 
