@@ -119,6 +119,58 @@ inline Shape Lathe(const std::vector<std::array<double, 2>>& profile, std::uint3
   return sheet;
 }
 
+/// A ring about the vertical axis, radius 1, its tube 0.45 thick: `faces` triangles, almost.
+inline Shape Torus(double faces) {
+  constexpr double kTube = 0.45;
+  const auto around = static_cast<std::uint32_t>(std::lround(std::sqrt(faces * 1.25)));
+  const auto across = static_cast<std::uint32_t>(std::lround(faces / (2.0 * around)));
+  Shape ring;
+  for (std::uint32_t i = 0; i < around; ++i) {
+    for (std::uint32_t k = 0; k < across; ++k) {
+      const double turn = 2.0 * std::numbers::pi * i / around;
+      const double tube = 2.0 * std::numbers::pi * k / across;
+      const double radius = 1.0 + kTube * std::cos(tube);
+      ring.points.push_back(
+          {radius * std::cos(turn), radius * std::sin(turn), kTube * std::sin(tube)});
+      const std::uint32_t next = (i + 1) % around, beside = (k + 1) % across;
+      const std::uint32_t a = i * across + k, b = next * across + k, c = next * across + beside,
+                          d = i * across + beside;
+      ring.triangles.insert(ring.triangles.end(), {{a, b, c}, {a, c, d}});
+    }
+  }
+  return ring;
+}
+
+/// Loose leaves in a ball of radius 1: `leaves` rhombs of two triangles, evenly distributed, any
+/// way up. Their area is four times that of the ball's shadow.
+inline Shape Crown(std::uint32_t leaves) {
+  const double half = 2.0 * std::sqrt(std::numbers::pi / leaves);  // Half of a leaf's length.
+  Shape crown;
+  for (std::uint32_t i = 0; i < leaves; ++i) {
+    // Additive recurrence in five dimensions, by the powers of the root of x⁶ = x + 1.
+    std::array<double, 5> u{};
+    for (int k = 0; k < 5; ++k) {
+      const double next = (i + 0.5) * std::pow(1.0 / 1.1347241384015194, k + 1);
+      u[k] = next - std::floor(next);
+    }
+    const auto along = [](double height, double turn) {
+      const double flat = std::sqrt(1.0 - height * height);
+      return Vec3{flat * std::cos(2.0 * std::numbers::pi * turn),
+                  flat * std::sin(2.0 * std::numbers::pi * turn), height};
+    };
+    const Vec3 centre = along(2.0 * u[0] - 1.0, u[1]) * std::cbrt(u[2]);
+    const Vec3 normal = along(2.0 * u[3] - 1.0, u[4]);
+    const Vec3 side = Normalized(Cross(normal, along(0.0, u[1])));
+    const Vec3 length = Cross(side, normal) * half, width = side * (0.5 * half);
+    const auto first = static_cast<std::uint32_t>(crown.points.size());
+    crown.points.insert(crown.points.end(),
+                        {centre - length, centre + width, centre + length, centre - width});
+    crown.triangles.insert(crown.triangles.end(),
+                           {{first, first + 1, first + 2}, {first, first + 2, first + 3}});
+  }
+  return crown;
+}
+
 inline std::shared_ptr<Model> ModelOf(std::span<const Shape> shapes, NormalsMode normals) {
   auto model = std::make_shared<Model>();
   model->materials.push_back({});

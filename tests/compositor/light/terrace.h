@@ -249,4 +249,16 @@ inline ObjectScore ScoreOf(int object, const ObjectView& view, const RgbImage& c
   return score;
 }
 
+/// Mean CIE76 difference of two images over the pixels that objects cover.
+inline double MeanDifference(const ObjectView& view, const RgbImage& a, const RgbImage& b) {
+  double sum = 0.0;
+  int pixels = 0;
+  for (std::size_t i = 0; i < view.pixels.size(); ++i) {
+    if (view.pixels[i].object < 0) continue;
+    sum += Cie76(view.At(a, i), view.At(b, i));
+    ++pixels;
+  }
+  return sum / pixels;
+}
+
 }  // namespace pleinair::compositor::testing
