@@ -346,9 +346,11 @@ FrameUniforms GlComposer::FrameOf(const shadows::View& view,
 
 /// Brings shapes and shadow maps up to date, and classifies the surfaces by them.
 Result<shadows::View> GlComposer::UpdateScene(const Transform<Camera, Marker>& camera_from_marker) {
-  if (changing_ && changing_->Update()) {
-    PLEINAIR_RETURN_IF_ERROR(
-        surfaces_.SetShapes(changing_->meshes(), changing_->first_body(), light_.mix()));
+  if (changing_ && !changing_->meshes().empty()) {
+    if (changing_->Update()) {
+      surfaces_.SetShapes(changing_->meshes(), changing_->first_body());
+    }
+    PLEINAIR_RETURN_IF_ERROR(surfaces_.SetMix(changing_->meshes(), light_.mix()));
   }
   const shadows::View view =
       ViewOf(canvas_.camera, camera_from_marker, surfaces_.placement().bounds());

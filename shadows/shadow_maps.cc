@@ -255,7 +255,14 @@ Result<int> ShadowMaps::Redraw(std::span<const ShadowCaster> casters, const Ligh
         (window.max - window.min) / static_cast<double>(options_.resolutions[i]);
     const auto [depth_min, depth_max] = DepthRange(window, all);
     const double range = depth_max - depth_min;
+    const glm::dvec2 scale = 1.0 / texel;
+    glm::dmat4 texel_from_marker(glm::dvec4(axes.u * scale.x, -window.min.x * scale.x),
+                                 glm::dvec4(axes.v * scale.y, -window.min.y * scale.y),
+                                 glm::dvec4(-axes.to_sun, -depth_min) / range,
+                                 glm::dvec4(0.0, 0.0, 0.0, 1.0));
+    texel_from_marker = glm::transpose(texel_from_marker);
     SliceKey key{window, depth_min, depth_max, axes.to_sun, {}};
+    std::vector<ChangingCaster> changing;
     for (const ShadowCaster& caster : casters) {
       const LightWindow footprint = Project(axes, caster.bounds).window;
       if (!footprint.Overlaps(window)) continue;
@@ -276,22 +283,34 @@ Result<int> ShadowMaps::Redraw(std::span<const ShadowCaster> casters, const Ligh
         covered = inner.Contains(footprint) && finer_min <= depth_min && finer_max >= depth_max;
       }
       if (covered) continue;
+      if (!UsesMoments() && !caster.triangles.indices.empty()) {
+        changing.push_back(
+            {caster.triangles, texel_from_marker * caster.marker_from_model, caster.revision});
+        continue;
+      }
       key.casters.push_back({caster.vertices->id(), caster.index_count, caster.marker_from_model,
                              caster.revision, caster.sun_side_only});
     }
 
-    const glm::dvec2 scale = 1.0 / texel;
     uniforms_.slices[i] = {
         glm::vec4(axes.u * scale.x, -window.min.x * scale.x),
         glm::vec4(axes.v * scale.y, -window.min.y * scale.y),
         glm::vec4(-axes.to_sun, -depth_min),
         glm::vec4(texel, options_.resolutions[i], range),
     };
-    if (key == slices_[i].drawn) continue;
-    slices_[i].drawn = std::move(key);
-    DrawDepth(i, axes);
-    if (UsesMoments()) DrawMoments(i);
-    if (Content() == MapContent::kDepthBounds) DrawBounds(i);
+    Slice& slice = slices_[i];
+    const bool is_new = !(key == slice.drawn);
+    if (is_new) {
+      slice.drawn = std::move(key);
+      DrawDepth(i, axes);
+      if (UsesMoments()) DrawMoments(i);
+    }
+    const int side = options_.resolutions[i];
+    const TexelRect changed = slice.changing.Draw(changing, is_new, side, i, depth_);
+    if (!is_new && changed.Empty()) continue;
+    if (Content() == MapContent::kDepthBounds) {
+      DrawBounds(i, is_new ? TexelRect{0, 0, side, side} : changed);
+    }
     ++redrawn;
   }
   uniforms_.light_u = glm::vec4(axes.u, uniforms_.light_u.w);
@@ -328,8 +347,10 @@ void ShadowMaps::DrawDepth(int slice, const LightAxes& axes) {
   glDisable(GL_DEPTH_CLAMP);
 }
 
-void ShadowMaps::DrawBounds(int slice) {
+/// Of these texels of the map.
+void ShadowMaps::DrawBounds(int slice, const TexelRect& texels) {
   glDisable(GL_DEPTH_TEST);
+  glEnable(GL_SCISSOR_TEST);
   no_vertices_.Bind();
   depth_.Bind(0);
   first_program_.Use();
@@ -340,6 +361,9 @@ void ShadowMaps::DrawBounds(int slice) {
     targets[level].Bind();
     const int side = options_.resolutions[slice] >> (level + 2);
     glViewport(0, 0, side, side);
+    const auto first = [level](int texel) { return texel >> (level + 2); };
+    const int x = first(texels.x0), y = first(texels.y0);
+    glScissor(x, y, first(texels.x1 - 1) + 1 - x, first(texels.y1 - 1) + 1 - y);
     if (level == 1) {
       bounds_.Bind(0);
       second_program_.Use();
@@ -354,6 +378,7 @@ void ShadowMaps::DrawBounds(int slice) {
   }
   glTextureParameteri(bounds_.id(), GL_TEXTURE_BASE_LEVEL, 0);
   glTextureParameteri(bounds_.id(), GL_TEXTURE_MAX_LEVEL, 1000);
+  glDisable(GL_SCISSOR_TEST);
   glEnable(GL_DEPTH_TEST);
 }
 

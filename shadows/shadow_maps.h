@@ -17,6 +17,8 @@
 #include "gl/program.h"
 #include "gl/texture.h"
 #include "gl/vertex_array.h"
+#include "shadows/changing_depth.h"
+#include "shadows/depth_raster.h"
 #include "shadows/light_window.h"
 #include "shadows/shadow_method.h"
 #include "shadows/shadow_uniforms.h"
@@ -70,6 +72,10 @@ struct ShadowCaster {
   /// Draws only the triangles that run counter-clockwise as seen from the sun: half of a closed
   /// body. Its other sides, and the backs of open surfaces, must be casters of their own.
   bool sun_side_only = false;
+  /// The same triangles in memory, of a caster whose shape often changes. Depth maps draw them in
+  /// place of `vertices`, on the processor and with the sun's side only (depth_raster.h); a new
+  /// shape then redraws nothing else. The memory must outlive its use. Empty: not used.
+  TriangleSpan triangles;
 };
 
 /// Z-partitioned shadow maps of the sun (Kolivand & Sunar 2014, with the deviations explained in
@@ -146,6 +152,7 @@ class ShadowMaps {
     SliceKey drawn;
     gl::GlFramebuffer depth_target;
     std::vector<gl::GlFramebuffer> bounds_targets;  // One per level of the pyramid.
+    ChangingDepth changing;                         // Not in `drawn`.
     gl::GlFramebuffer moments_target;
   };
 
@@ -167,7 +174,7 @@ class ShadowMaps {
   /// Minimum and maximum depth of a map.
   std::pair<double, double> DepthRange(const LightWindow& window, const LightExtent& scene) const;
   void DrawDepth(int slice, const LightAxes& axes);
-  void DrawBounds(int slice);
+  void DrawBounds(int slice, const TexelRect& texels);
   void DrawMoments(int slice);
 
   ShadowMapOptions options_;

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <span>
 
 namespace pleinair::compositor {
 
@@ -39,10 +40,10 @@ class SunFootprint {
   /// Covers nothing of `window`, whose side is not 0.
   explicit SunFootprint(const SunWindow& window);
 
-  /// Adds an object between two corners, in the coordinates of SunWindow::At(). If a corner is not
-  /// finite or `low` exceeds `high`, the object may be anywhere.
-  void Include(const glm::vec2& low, const glm::vec2& high);
-  /// Returns whether objects may shade a region between two such corners.
+  /// Adds an object's triangles, by the coordinates SunWindow::At() of its vertices. If one is not
+  /// a number, its triangles may be anywhere.
+  void Include(std::span<const glm::vec2> at, std::span<const std::uint32_t> indices);
+  /// Returns whether objects may shade a region between two corners.
   bool Touches(const glm::vec2& low, const glm::vec2& high) const;
 
  private:

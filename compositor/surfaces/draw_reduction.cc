@@ -51,11 +51,7 @@ SunFootprint DrawReduction::FootprintOf(const SunWindow& window,
     for (const glm::vec3& position : object_positions_[object]) {
       at.push_back(window.At(glm::vec3(objects_moved[object] * glm::vec4(position, 1.0F))));
     }
-    const std::span<const std::uint32_t> indices = objects_[object].indices();
-    for (std::size_t i = 0; i < indices.size(); i += 3) {
-      const glm::vec2 a = at[indices[i]], b = at[indices[i + 1]], c = at[indices[i + 2]];
-      footprint.Include(glm::min(glm::min(a, b), c), glm::max(glm::max(a, b), c));
-    }
+    footprint.Include(at, objects_[object].indices());
   }
   return footprint;
 }

@@ -119,8 +119,7 @@ void SceneSurfaces::Move(int placed_model, const Mat3& linear, Vec3 translation_
   reduction_.Invalidate();
 }
 
-Result<void> SceneSurfaces::SetShapes(const std::vector<LitMesh>& lit, std::size_t first,
-                                      const LightMix& mix) {
+void SceneSurfaces::SetShapes(const std::vector<LitMesh>& lit, std::size_t first) {
   std::size_t object = 0;
   for (std::size_t i = 0; i < surfaces_.size(); ++i) {
     const bool is_drawn = surfaces_[i].IsDrawnObject();
@@ -133,7 +132,6 @@ Result<void> SceneSurfaces::SetShapes(const std::vector<LitMesh>& lit, std::size
   }
   placement_.Refresh(surfaces_);
   objects_sorted_ = false;
-  return SetMix(lit, mix);
 }
 
 std::vector<glm::mat4> SceneSurfaces::ObjectsMoved() const {

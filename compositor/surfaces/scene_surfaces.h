@@ -34,9 +34,9 @@ class SceneSurfaces {
   /// Sets the colors of sun and sky, by which leaves change theirs.
   void SetLightColors(LinearRgb sun, LinearRgb sky);
   void Move(int placed_model, const Mat3& linear, Vec3 translation_m);
-  /// Gives the surfaces from `first` on the shape, and all the light, of `lit`, whose triangles are
-  /// those of SetLit(). Errors as SetMix().
-  Result<void> SetShapes(const std::vector<LitMesh>& lit, std::size_t first, const LightMix& mix);
+  /// Gives the surfaces from `first` on the shape of `lit`, whose triangles are those of SetLit().
+  /// `lit` must outlive the shape. SetMix() must follow.
+  void SetShapes(const std::vector<LitMesh>& lit, std::size_t first);
 
   /// As Composer::SetOptions() for ComposerOptions::reductions.
   void Use(const DrawReductions& reductions) { reduction_.Use(reductions); }

@@ -25,6 +25,7 @@ void SurfacePlacement::IncludeShapes(const ModelBounds& shapes) {
 void SurfacePlacement::SetShape(std::size_t surface, const LitMesh& mesh) {
   for (const auto& p : mesh.positions) shapes_[surface].bounds.Include({p[0], p[1], p[2]});
   shapes_[surface].revision = ++revision_;
+  shapes_[surface].triangles = {mesh.positions, mesh.indices};
 }
 
 void SurfacePlacement::Reset(std::size_t models, std::span<const SurfaceBuffers> surfaces) {
@@ -54,6 +55,7 @@ void SurfacePlacement::Place(std::span<const SurfaceBuffers> surfaces) {
     caster.index_count = surface.index_count();
     caster.revision = shapes_[i].revision;
     caster.sun_side_only = shapes_[i].changes;
+    caster.triangles = shapes_[i].triangles;
     caster.marker_from_model = MovedBy(surface.placed_model());
     const shadows::Box& lit = shapes_[i].bounds;
     for (int corner = 0; corner < 8; ++corner) {

@@ -25,7 +25,8 @@ class SurfacePlacement {
   /// Extends the bounds of the surface added last to those of all its shapes.
   void IncludeShapes(const ModelBounds& shapes);
   /// Gives a surface another shape; applies from the next Reset(), Move() or Refresh() on. Its
-  /// bounds only grow, so that shadow maps which are fitted to them seldom change.
+  /// bounds only grow, so that shadow maps which are fitted to them seldom change. The mesh must
+  /// outlive the shape.
   void SetShape(std::size_t surface, const LitMesh& mesh);
   /// Follows the surfaces' shapes.
   void Refresh(std::span<const SurfaceBuffers> surfaces) { Place(surfaces); }
@@ -50,11 +51,12 @@ class SurfacePlacement {
   /// Computes casters and bounds at the models' current places.
   void Place(std::span<const SurfaceBuffers> surfaces);
 
-  /// Bounds and changes of a surface.
+  /// Extent and shape of a surface.
   struct Shape {
     shadows::Box bounds;         // Where it was lit.
     std::uint64_t revision = 0;  // As shadows::ShadowCaster.
     bool changes = false;
+    shadows::TriangleSpan triangles;  // After SetShape().
   };
 
   std::vector<Shape> shapes_;      // One per surface.

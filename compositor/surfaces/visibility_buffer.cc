@@ -5,12 +5,15 @@
 #include <cstddef>
 #include <numeric>
 
+#include "base/parallel_for.h"
 #include "compositor/surfaces/texture_rows.h"
 
 namespace pleinair::compositor {
 namespace {
 
 using Texel = std::array<float, 4>;
+
+constexpr std::size_t kVerticesPerBlock = 8192;
 
 }  // namespace
 
@@ -62,24 +65,32 @@ Result<void> VisibilityBuffer::SetLight(std::span<const LitMesh* const> meshes,
                                         const LightMix& mix) {
   std::size_t count = 0;
   for (const LitMesh* mesh : meshes) count += mesh->positions.size();
-  std::vector<Texel> vertices;
-  vertices.reserve(kTexelsPerVertex * (count + kVerticesPerRow));
+  vertex_texels_.resize(kTexelsPerVertex * count);
+  Texel* next = vertex_texels_.data();
   for (const LitMesh* mesh : meshes) {
-    for (std::size_t i = 0; i < mesh->positions.size(); ++i) {
-      const auto& [x, y, z] = mesh->positions[i];
-      const auto& [nx, ny, nz] = mesh->normals[i];
-      const auto [r, g, b] = mesh->AmbientWith(i, mix);
-      // Virtual objects have no light in the case without them, but some have one behind them.
-      const auto& lifts = mesh->sunlight.lifts;
-      const auto [u, v, w] = mesh->is_phantom || mesh->IsTranslucent()
-                                 ? mesh->AmbientWithout(i, mix)
-                             : lifts.empty() ? std::array<float, 3>{}
-                                             : lifts[i];
-      vertices.insert(vertices.end(), {{x, y, z, nx}, {r, g, b, ny}, {u, v, w, nz}});
-    }
+    const std::size_t size = mesh->positions.size();
+    ParallelFor((size + kVerticesPerBlock - 1) / kVerticesPerBlock, 0, [&](std::size_t block) {
+      const std::size_t last = std::min(size, (block + 1) * kVerticesPerBlock);
+      for (std::size_t i = block * kVerticesPerBlock; i < last; ++i) {
+        const auto& [x, y, z] = mesh->positions[i];
+        const auto& [nx, ny, nz] = mesh->normals[i];
+        const auto [r, g, b] = mesh->AmbientWith(i, mix);
+        // Virtual objects have no light in the case without them, but some have one behind them.
+        const auto& lifts = mesh->sunlight.lifts;
+        const auto [u, v, w] = mesh->is_phantom || mesh->IsTranslucent()
+                                   ? mesh->AmbientWithout(i, mix)
+                               : lifts.empty() ? std::array<float, 3>{}
+                                               : lifts[i];
+        Texel* texels = next + kTexelsPerVertex * i;
+        texels[0] = {x, y, z, nx};
+        texels[1] = {r, g, b, ny};
+        texels[2] = {u, v, w, nz};
+      }
+    });
+    next += kTexelsPerVertex * size;
   }
-  return UploadRows(vertices, kVerticesPerRow * kTexelsPerVertex, GL_RGBA32F, GL_RGBA, GL_FLOAT,
-                    &vertices_);
+  return UploadRows(vertex_texels_, kVerticesPerRow * kTexelsPerVertex, GL_RGBA32F, GL_RGBA,
+                    GL_FLOAT, &vertices_);
 }
 
 Result<void> VisibilityBuffer::SetTriangles(std::span<const SortedTriangles> meshes) {

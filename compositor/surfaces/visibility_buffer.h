@@ -58,6 +58,7 @@ class VisibilityBuffer {
   std::vector<std::uint32_t> first_vertices_;           // One per mesh.
   std::vector<std::uint32_t> components_;               // One per vertex.
   std::vector<int> first_ids_;                          // One per mesh.
+  std::vector<std::array<float, 4>> vertex_texels_;     // kTexelsPerVertex each.
   std::vector<std::array<std::uint32_t, 4>> texels_;    // One per triangle.
   std::vector<LinearShadowRatio> linear_ratio_texels_;  // One per triangle; unused for some kinds.
 };

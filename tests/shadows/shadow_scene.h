@@ -31,6 +31,7 @@ class ShadowScene : public gl::GlTest {
   /// Adds a solid box, or a parallelogram (which never shades itself).
   void AddBox(const glm::dvec3& low, const glm::dvec3& high);
   void AddQuad(const glm::dvec3& corner, const glm::dvec3& a, const glm::dvec3& b);
+  void AddMesh(const std::vector<glm::vec3>& positions, const std::vector<unsigned>& indices);
   /// A ground of 16 m × 16 m centred at the origin.
   void AddGround() { AddQuad({-8, -8, 0}, {16, 0, 0}, {0, 16, 0}); }
   std::vector<ShadowCaster> Casters() const;
@@ -59,7 +60,6 @@ class ShadowScene : public gl::GlTest {
     glm::dvec3 a, ab, ac;
   };
   static std::vector<float> Probe(const std::vector<std::string>& defines, const ProbePlane& plane);
-  void AddMesh(const std::vector<glm::vec3>& positions, const std::vector<unsigned>& indices);
 
   std::list<Mesh> meshes_;
   std::vector<Triangle> triangles_;

@@ -75,22 +75,21 @@ class TracedBodies : public ChangingBodies {
       state_.rounds = kFirstRounds;
       Forget();
     }
-    state_.has_new_light = true;
     contacts_->Light(Still());
     return {};
   }
 
   bool Update() override {
     if (!contacts_) return false;
-    if (state_.has_new_shape) Follow();
-    state_.has_new_shape = state_.has_new_light = false;
+    const bool changed = state_.has_new_shape && Follow();
+    state_.has_new_shape = false;
     for (; state_.rounds > 0; --state_.rounds) {
       Refresh(probes_->size(), contacts_->size());
       // The rays of the first round end at surfaces with their light of before.
       if (state_.rounds == kFirstRounds) Forget();
     }
     Refresh(kProbesPerFrame, kVerticesPerFrame);
-    return true;
+    return changed;
   }
 
   const std::vector<LitMesh>& meshes() const override { return meshes_; }
@@ -98,7 +97,7 @@ class TracedBodies : public ChangingBodies {
 
  private:
   struct State {
-    bool has_new_shape = true, has_new_light = true;
+    bool has_new_shape = true;
     int rounds = 0;    // Over all probes, before the next frame.
     Vec3 to_sun;       // When all light was last traced; `lux`, too.
     double lux = 0.0;  // The unshaded sun and the sky together.
@@ -147,27 +146,22 @@ class TracedBodies : public ChangingBodies {
     return {};
   }
 
-  /// Moves the drawn surfaces to the bodies' shapes.
-  void Follow() {
-    std::vector<std::vector<std::array<float, 3>>> before;
-    for (const LitMesh& mesh : Drawn()) before.push_back(mesh.positions);
+  /// Moves the drawn surfaces to the bodies' shapes. Returns whether they differ from the last
+  /// ones.
+  bool Follow() {
     std::size_t next = 0;
+    ChangingMesh::Movement all;
     for (const ChangingMesh& body : bodies_) {
       std::size_t count = 0;
       for (const SurfaceMesh& surface : body.surfaces()) count += surface.closed ? 1 : 2;
-      body.CopyShape(Drawn().subspan(next, count));
+      const ChangingMesh::Movement own = body.CopyShape(Drawn().subspan(next, count));
+      all = {std::max(all.farthest_m, own.farthest_m), all.any || own.any};
       next += count;
     }
-    float moved_m = 0.0F;
-    for (std::size_t m = 0; m < before.size(); ++m) {
-      for (std::size_t v = 0; v < before[m].size(); ++v) {
-        for (std::size_t c = 0; c < 3; ++c) {
-          moved_m = std::max(moved_m, std::fabs(before[m][v][c] - Drawn()[m].positions[v][c]));
-        }
-      }
-    }
+    if (!all.any) return false;
     surroundings_.MoveBodies();
-    contacts_->FollowBodies(Drawn(), static_cast<double>(moved_m));
+    contacts_->FollowBodies(Drawn(), static_cast<double>(all.farthest_m));
+    return true;
   }
 
   void Refresh(std::size_t probes, std::size_t vertices) {

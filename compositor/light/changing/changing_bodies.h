@@ -34,7 +34,7 @@ class ChangingBodies {
   /// memory.
   virtual Result<void> SetLight(const std::vector<LitMesh>& still, const sky::SkyModel& daylight,
                                 const Mat3& marker_from_world) = 0;
-  /// Follows the shapes and refreshes a part of the light. Returns whether anything changed.
+  /// Follows the shapes and refreshes a part of the light. Returns whether a shape changed.
   virtual bool Update() = 0;
 
   /// All surfaces in their light: the still ones, then the bodies from first_body() on.

@@ -6,6 +6,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "base/parallel_for.h"
 #include "compositor/light/edge_splitting.h"
 #include "compositor/light/reflectance.h"
 
@@ -17,6 +18,7 @@ using Float3 = std::array<float, 3>;
 // Longest edge, as near a still object, and relative to a body's diagonal.
 constexpr double kMaxEdge_m = 0.04, kMaxEdgeShare = 1.0 / 48.0;
 constexpr std::size_t kMaxSplitVertices = 40'000;
+constexpr std::size_t kVerticesPerBlock = 8192;
 
 double DiagonalOf(std::span<const TracedSurface> surfaces) {
   Vec3 low{1e30, 1e30, 1e30}, high{-1e30, -1e30, -1e30};
@@ -103,13 +105,17 @@ void ChangingMesh::SetShape(std::span<const MeshShape> shape) {
     SurfaceMesh& surface = surfaces_[s];
     const Source& source = sources_[s];
     const MeshShape& mesh = shape[source.mesh];
-    for (std::size_t i = 0; i < source.vertices.size(); ++i) {
-      const auto& [x, y, z] = mesh.positions[source.vertices[i]];
-      const auto& [u, v, w] = mesh.normals[source.vertices[i]];
-      surface.positions[i] = NarrowedVector(linear_ * Vec3{x, y, z} + translation_m_);
-      const Float3 normal = UnitVector(cofactors * Vec3{u, v, w});
-      surface.normals[i] = source.turned[i] ? Opposite(normal) : normal;
-    }
+    const std::size_t count = source.vertices.size();
+    ParallelFor((count + kVerticesPerBlock - 1) / kVerticesPerBlock, 0, [&](std::size_t block) {
+      const std::size_t last = std::min(count, (block + 1) * kVerticesPerBlock);
+      for (std::size_t i = block * kVerticesPerBlock; i < last; ++i) {
+        const auto& [x, y, z] = mesh.positions[source.vertices[i]];
+        const auto& [u, v, w] = mesh.normals[source.vertices[i]];
+        surface.positions[i] = NarrowedVector(linear_ * Vec3{x, y, z} + translation_m_);
+        const Float3 normal = UnitVector(cofactors * Vec3{u, v, w});
+        surface.normals[i] = source.turned[i] ? Opposite(normal) : normal;
+      }
+    });
     std::size_t next = source.vertices.size();
     for (const auto& [a, b] : source.parents) {
       surface.positions[next] = EdgeMidpoint(surface.positions[a], surface.positions[b]);
@@ -149,10 +155,18 @@ std::vector<LitMesh> ChangingMesh::DrawnMeshes() const {
   return drawn;
 }
 
-void ChangingMesh::CopyShape(std::span<LitMesh> drawn) const {
+ChangingMesh::Movement ChangingMesh::CopyShape(std::span<LitMesh> drawn) const {
+  Movement movement;
   std::size_t next = 0;
   for (const SurfaceMesh& surface : surfaces_) {
     LitMesh& front = drawn[next++];
+    for (std::size_t v = 0; v < surface.positions.size(); ++v) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        movement.farthest_m = std::max(movement.farthest_m,
+                                       std::fabs(surface.positions[v][c] - front.positions[v][c]));
+      }
+    }
+    movement.any = movement.any || movement.farthest_m > 0.0F || front.normals != surface.normals;
     front.positions = surface.positions;
     front.normals = surface.normals;
     if (surface.closed) continue;
@@ -160,6 +174,7 @@ void ChangingMesh::CopyShape(std::span<LitMesh> drawn) const {
     back.positions = surface.positions;
     std::ranges::transform(surface.normals, back.normals.begin(), Opposite);
   }
+  return movement;
 }
 
 }  // namespace pleinair::compositor

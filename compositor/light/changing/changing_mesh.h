@@ -32,8 +32,13 @@ class ChangingMesh {
   std::span<const SurfaceMesh> surfaces() const { return surfaces_; }
   /// What to draw, without light: one mesh per surface, and a second for the back of an open one.
   std::vector<LitMesh> DrawnMeshes() const;
+  /// How vertices have moved.
+  struct Movement {
+    float farthest_m = 0.0F;  ///< Along an axis.
+    bool any = false;         ///< A vertex has moved or turned.
+  };
   /// Copies the current positions and normals into such meshes.
-  void CopyShape(std::span<LitMesh> drawn) const;
+  Movement CopyShape(std::span<LitMesh> drawn) const;
 
  private:
   struct Source {

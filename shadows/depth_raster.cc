@@ -1,0 +1,110 @@
+#include "shadows/depth_raster.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <thread>
+#include <vector>
+
+#include "base/parallel_for.h"
+
+namespace pleinair::shadows {
+namespace {
+
+constexpr std::int32_t kSteps = 256;  // Of a texel.
+// Corners beyond the map by more than this are moved there: their products must fit into 64 bits.
+constexpr float kFarOff = 1e6F;
+constexpr std::size_t kCornersPerBlock = 8192;
+
+/// First texel whose centre is not below a coordinate in 1/256 texel.
+int FirstCentre(std::int32_t at) {
+  return static_cast<int>((static_cast<std::int64_t>(at) + kSteps / 2 - 1) >> 8);
+}
+
+}  // namespace
+
+TexelRect TexelRect::UnitedWith(const TexelRect& other) const {
+  if (Empty()) return other;
+  if (other.Empty()) return *this;
+  return {std::min(x0, other.x0), std::min(y0, other.y0), std::max(x1, other.x1),
+          std::max(y1, other.y1)};
+}
+
+DepthRaster::DepthRaster(const TriangleSpan& triangles, const glm::dmat4& texel_from_model,
+                         int side)
+    : indices_(triangles.indices), corners_(triangles.positions.size()) {
+  const glm::mat4 map(texel_from_model);
+  const std::size_t count = corners_.size();
+  ParallelFor((count + kCornersPerBlock - 1) / kCornersPerBlock, 0, [&](std::size_t block) {
+    const std::size_t last = std::min(count, (block + 1) * kCornersPerBlock);
+    for (std::size_t i = block * kCornersPerBlock; i < last; ++i) {
+      const auto& [x, y, z] = triangles.positions[i];
+      const glm::vec3 at(map * glm::vec4(x, y, z, 1.0F));
+      const auto fixed = [](float v) {
+        return static_cast<std::int32_t>(std::lrintf(std::clamp(v, -kFarOff, kFarOff) * kSteps));
+      };
+      corners_[i] = Corner{fixed(at.x), fixed(at.y), std::clamp(at.z, 0.0F, 1.0F)};
+    }
+  });
+  std::int32_t low_x = INT32_MAX, low_y = INT32_MAX, high_x = INT32_MIN, high_y = INT32_MIN;
+  for (const Corner& corner : corners_) {
+    low_x = std::min(low_x, corner.x);
+    low_y = std::min(low_y, corner.y);
+    high_x = std::max(high_x, corner.x);
+    high_y = std::max(high_y, corner.y);
+  }
+  if (corners_.empty()) return;
+  const auto inside = [side](std::int32_t at) { return std::clamp(at / kSteps, -1, side); };
+  bounds_ = {std::max(0, inside(low_x)), std::max(0, inside(low_y)),
+             std::min(side, inside(high_x) + 1), std::min(side, inside(high_y) + 1)};
+}
+
+void DepthRaster::Draw(Image<float>* depths) const {
+  if (bounds_.Empty()) return;
+  // Bands of rows: every texel belongs to one.
+  const auto bands = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 4U));
+  ParallelFor(static_cast<std::size_t>(bands), 0, [&](std::size_t band) {
+    const auto i = static_cast<int>(band);
+    DrawRows(bounds_.y0 + bounds_.height() * i / bands,
+             bounds_.y0 + bounds_.height() * (i + 1) / bands, depths);
+  });
+}
+
+void DepthRaster::DrawRows(int first, int last, Image<float>* depths) const {
+  for (std::size_t i = 0; i + 2 < indices_.size(); i += 3) {
+    const Corner &a = corners_[indices_[i]], &b = corners_[indices_[i + 1]],
+                 &c = corners_[indices_[i + 2]];
+    const int y0 = std::max(FirstCentre(std::min({a.y, b.y, c.y})), first);
+    const int y1 = std::min(FirstCentre(std::max({a.y, b.y, c.y}) + 1), last);
+    if (y0 >= y1) continue;
+    const std::int64_t abx = b.x - a.x, aby = b.y - a.y, acx = c.x - a.x, acy = c.y - a.y;
+    const std::int64_t area = abx * acy - aby * acx;
+    if (area <= 0) continue;
+    const int x0 = std::max(FirstCentre(std::min({a.x, b.x, c.x})), bounds_.x0);
+    const int x1 = std::min(FirstCentre(std::max({a.x, b.x, c.x}) + 1), bounds_.x1);
+    if (x0 >= x1) continue;
+    // Twice the areas opposite to the corners, at the first texel's centre, and their changes.
+    const std::int64_t px = std::int64_t{x0} * kSteps + kSteps / 2 - a.x;
+    const std::int64_t py = std::int64_t{y0} * kSteps + kSteps / 2 - a.y;
+    std::int64_t row_b = px * acy - py * acx, row_c = abx * py - aby * px;
+    const std::int64_t b_right = acy * kSteps, b_up = -acx * kSteps;
+    const std::int64_t c_right = -aby * kSteps, c_up = abx * kSteps;
+    const std::int64_t a_right = -b_right - c_right;
+    const float scale = 1.0F / static_cast<float>(area);
+    const float to_b = (b.depth - a.depth) * scale, to_c = (c.depth - a.depth) * scale;
+    const float depth_right =
+        to_b * static_cast<float>(b_right) + to_c * static_cast<float>(c_right);
+    for (int y = y0; y < y1; ++y, row_b += b_up, row_c += c_up) {
+      float* row = &(*depths)(x0, y);
+      const float depth =
+          a.depth + to_b * static_cast<float>(row_b) + to_c * static_cast<float>(row_c);
+      std::int64_t at_a = area - row_b - row_c, at_b = row_b, at_c = row_c;
+      for (int x = 0; x < x1 - x0; ++x, at_a += a_right, at_b += b_right, at_c += c_right) {
+        if ((at_a | at_b | at_c) < 0) continue;  // One of them is negative.
+        row[x] = std::min(row[x], depth + static_cast<float>(x) * depth_right);
+      }
+    }
+  }
+}
+
+}  // namespace pleinair::shadows
