@@ -12,20 +12,18 @@
 #include <utility>
 #include <vector>
 
+#include "compositor/canvas.h"
 #include "compositor/embedded_shaders.h"
 #include "compositor/light/changing/changing_bodies.h"
 #include "compositor/passes/frame_daylight.h"
 #include "compositor/passes/frame_uniforms.h"
 #include "compositor/passes/glm_vectors.h"
 #include "compositor/passes/object_pass.h"
-#include "compositor/passes/render_camera.h"
-#include "compositor/passes/render_targets.h"
 #include "compositor/passes/scene_shadows.h"
 #include "compositor/passes/scene_view.h"
 #include "compositor/passes/shadow_debug_view.h"
 #include "compositor/passes/shadow_ratio_pass.h"
 #include "compositor/passes/surface_programs.h"
-#include "compositor/picture/camera_picture.h"
 #include "compositor/surfaces/scene_surfaces.h"
 #include "gl/egl_context.h"
 #include "gl/program.h"
@@ -34,26 +32,13 @@
 namespace pleinair::compositor {
 namespace {
 
-constexpr double kWarpedSupersampling = 1.5;
-// Half of an 8-bit step at black, sRGB. Less airlight changes no image.
-constexpr double kNoticeableAir = 0.5 / 255.0 / 12.92;
-
-static_assert(std::tuple_size_v<decltype(ComposerOptions::fog)> == shadows::kMaxPartitions);
-
-/// Render targets for one image size.
-struct Canvas {
-  RenderCamera camera;
-  RenderTargets targets;
-  CameraPicture picture;
-  std::optional<ShadowDebugView> debug_view;  // Created on first use.
-};
-
 struct Passes {
   ShadowRatioPass ratio;
   ObjectPass objects;
   // Created on first use. First index: one step of the sun, or two that fade into one another.
   // Second index: without and with airlight.
   std::array<std::array<std::optional<SurfacePrograms>, 2>, 2> programs;
+  std::optional<ShadowDebugView> debug_view;  // Created on first use, for one canvas.
 };
 
 class GlComposer : public Composer {
@@ -118,6 +103,8 @@ class GlComposer : public Composer {
   FrameUniforms FrameOf(const shadows::View& view,
                         const Transform<Camera, Marker>& camera_from_marker,
                         LinearRgb exposure_scale) const;
+  AffectedTiles DrawCoarse(const SurfacePrograms& programs, const shadows::View& view,
+                           const FrameUniforms& frame);
   FogSplits FogBeforeObjects(const shadows::View& view, const glm::dvec3& eye_m) const;
   Result<void> DrawDebugView(const shadows::View& view);
 
@@ -157,18 +144,9 @@ Result<std::unique_ptr<Composer>> GlComposer::Make(const CameraModel& camera,
 
 /// Sets the number of render pixels and creates the render targets.
 Result<void> GlComposer::SetRenderSize(const ComposerOptions& options) {
-  const double supersampling = options.supersampling > 0.0 ? options.supersampling
-                               : camera_.HasDistortion()   ? kWarpedSupersampling
-                                                           : 1.0;
-  const RenderCamera render_camera = FitRenderCamera(camera_, supersampling);
-  PLEINAIR_ASSIGN_OR_RETURN(canvas_.targets,
-                            RenderTargets::Create(render_camera.width, render_camera.height,
-                                                  surfaces_.materials().HasDetails()));
-  PLEINAIR_ASSIGN_OR_RETURN(
-      canvas_.picture,
-      CameraPicture::Create(camera_, render_camera, supersampling, options.response));
-  canvas_.camera = render_camera;
-  canvas_.debug_view.reset();
+  PLEINAIR_ASSIGN_OR_RETURN(canvas_,
+                            Canvas::Create(camera_, options, surfaces_.materials().HasDetails()));
+  passes_.debug_view.reset();
   return canvas_.picture.SetCameraLook(look_);
 }
 
@@ -178,7 +156,7 @@ shadows::ShadowMapOptions GlComposer::MapOptions(const ComposerOptions& options)
 
 Result<void> GlComposer::MakeShadows(const shadows::ShadowMapOptions& options) {
   PLEINAIR_ASSIGN_OR_RETURN(shadows_, SceneShadows::Create(options));
-  canvas_.debug_view.reset();
+  passes_.debug_view.reset();
   return {};
 }
 
@@ -277,12 +255,12 @@ FogSplits GlComposer::FogBeforeObjects(const shadows::View& view, const glm::dve
 /// Draws over the composed image.
 Result<void> GlComposer::DrawDebugView(const shadows::View& view) {
   const shadows::ShadowMaps& maps = shadows_.maps();
-  if (!canvas_.debug_view) {
+  if (!passes_.debug_view) {
     PLEINAIR_ASSIGN_OR_RETURN(
-        canvas_.debug_view,
+        passes_.debug_view,
         ShadowDebugView::Create(maps.options(), canvas_.camera.width, canvas_.camera.height));
   }
-  canvas_.debug_view->Draw(
+  passes_.debug_view->Draw(
       maps, glm::mat4(view.ClipFromMarker()),
       [&](const gl::GlProgram& program) { surfaces_.Draw(program); }, canvas_.picture.positions(),
       canvas_.picture.framebuffer());
@@ -305,11 +283,8 @@ Result<void> GlComposer::SortSurfaces() {
 
 void GlComposer::DrawScene(const SurfacePrograms& programs, const FrameUniforms& frame,
                            const AffectedTiles& tiles) {
-  glEnable(GL_DEPTH_TEST);
-  // Open surfaces have one triangle per side. Clockwise, because image rows run downwards.
-  glEnable(GL_CULL_FACE);
-  glFrontFace(GL_CW);
-  passes_.ratio.DrawSurfaces(canvas_.targets, surfaces_, frame, tiles.all.Bounds());
+  EnableSurfaceTests();
+  passes_.ratio.DrawSurfaces(canvas_.targets, surfaces_, frame, tiles.fine.Bounds());
   passes_.objects.DrawSurfaces(canvas_.targets, surfaces_, frame, tiles.objects.Bounds());
   glDisable(GL_CULL_FACE);
   light_.transmittance().Bind(5);
@@ -317,7 +292,7 @@ void GlComposer::DrawScene(const SurfacePrograms& programs, const FrameUniforms&
                        tiles.objects.Rectangles());
   canvas_.picture.BindForShading(2, 3, 4);
   passes_.ratio.Draw(canvas_.targets, surfaces_, programs, frame, unmodelled_,
-                     tiles.all.Rectangles());
+                     tiles.fine.Rectangles());
   glDisable(GL_DEPTH_TEST);
 }
 
@@ -333,15 +308,27 @@ FrameUniforms GlComposer::FrameOf(const shadows::View& view,
   light_.SetUniforms(&frame);
   frame.fog = FogBeforeObjects(view, frame.eye_m);
   for (glm::vec3& light : frame.fog.inscattered) light *= frame.environment.below_mix;
-  const auto is_noticed = [&](const glm::vec3& light) {
-    const glm::vec3 shown = frame.exposure_scale * light;
-    return std::max({shown.r, shown.g, shown.b}) > kNoticeableAir;
-  };
-  frame.needs_airlight = is_noticed(frame.fog.inscattered.back());
+  frame.needs_airlight = frame.IsNoticed(frame.fog.inscattered.back());
   frame.linear_needs_airlight =
       frame.needs_airlight &&
-      is_noticed(frame.fog.MaxLightPerMetre() * surfaces_.MaxLinearChangeFarFrom(frame.eye_m));
+      frame.IsNoticed(frame.fog.MaxLightPerMetre() * surfaces_.MaxLinearChangeFarFrom(frame.eye_m));
   return frame;
+}
+
+/// Draws the coarse ratio where it is enough. Requires classified surfaces.
+AffectedTiles GlComposer::DrawCoarse(const SurfacePrograms& programs, const shadows::View& view,
+                                     const FrameUniforms& frame) {
+  SceneProjection image = ProjectionOf(canvas_.camera, view, canvas_.picture.Spread_px());
+  image.resolves_sunlit_sky = frame.needs_airlight;
+  AffectedTiles tiles = surfaces_.TilesOf(image);
+  if (options_.show_shadow_maps) tiles.all.IncludeAll();
+  if (frame.linear_needs_airlight) tiles.fine.Include(tiles.all);
+  const ImageTiles coarse = tiles.all.Without(tiles.fine);
+  if (coarse.Count() > 0) {
+    tiles.fine.Include(
+        canvas_.coarse.Draw(passes_.ratio, surfaces_, programs, view, frame, coarse));
+  }
+  return {tiles.objects, canvas_.picture.SetTiles(tiles), tiles.all};
 }
 
 /// Brings shapes and shadow maps up to date, and classifies the surfaces by them.
@@ -380,11 +367,9 @@ Result<RgbImage> GlComposer::Compose(ImageView<const std::uint8_t> rgb,
   PLEINAIR_ASSIGN_OR_RETURN(const shadows::View view, UpdateScene(camera_from_marker));
   const FrameUniforms frame = FrameOf(view, camera_from_marker, exposure_scale);
   PLEINAIR_ASSIGN_OR_RETURN(const SurfacePrograms* programs, ProgramsFor(frame));
-  AffectedTiles tiles =
-      surfaces_.TilesOf(ProjectionOf(canvas_.camera, view, canvas_.picture.Spread_px()));
-  if (options_.show_shadow_maps) tiles.all.IncludeAll();
+  const AffectedTiles tiles = DrawCoarse(*programs, view, frame);
   DrawScene(*programs, frame, tiles);
-  canvas_.picture.Draw(canvas_.targets, tiles.all);
+  canvas_.picture.Draw(canvas_.targets, canvas_.coarse.ratio(), tiles.fine);
   if (options_.show_shadow_maps && light_.HasSun()) {
     PLEINAIR_RETURN_IF_ERROR(DrawDebugView(view));
   }

@@ -10,7 +10,7 @@ namespace pleinair::compositor {
 /// Method of the virtual shadows' edges; docs/measurements/shadows.md compares the methods.
 using shadows::ShadowMethod;
 
-/// Shortcuts of a Composer. Each changes images by at most one 8-bit step, and very few values by
+/// Shortcuts of a Composer. Each changes images by at most two 8-bit steps, very few values by
 /// three. Each can be switched off to measure what it saves or to compare images
 /// (docs/method/compositing.md, "Shortcuts").
 struct DrawReductions {
@@ -22,9 +22,13 @@ struct DrawReductions {
   bool sun_facing_triangles = true;
   /// Draws only tiles of the image that objects may affect, and copies the others.
   bool affected_tiles = true;
+  /// Interpolates smooth ratios from a coarse grid. Requires affected_tiles.
+  bool coarse_sky_ratio = true;
 
   /// Everything is drawn.
-  static constexpr DrawReductions None() { return {false, false, false, false, false, false}; }
+  static constexpr DrawReductions None() {
+    return {false, false, false, false, false, false, false};
+  }
   bool operator==(const DrawReductions&) const = default;
 };
 

@@ -1,8 +1,20 @@
 #include "compositor/passes/frame_uniforms.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace pleinair::compositor {
+namespace {
+
+// Half of an 8-bit step at black, sRGB. Less airlight changes no image.
+constexpr float kNoticeableAir = 0.5F / 255.0F / 12.92F;
+
+}  // namespace
+
+bool FrameUniforms::IsNoticed(const glm::vec3& airlight) const {
+  const glm::vec3 shown = exposure_scale * airlight;
+  return std::max({shown.r, shown.g, shown.b}) > kNoticeableAir;
+}
 
 void FrameUniforms::Set(const gl::GlProgram& program) const {
   program.Set("u_eye_m", eye_m);

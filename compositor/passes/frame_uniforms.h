@@ -31,6 +31,9 @@ struct FrameUniforms {
   /// The airlight is noticeable where the shadow ratio is linear.
   bool linear_needs_airlight = false;
 
+  /// Returns whether light in front of a surface changes a pixel by half a value at black.
+  bool IsNoticed(const glm::vec3& airlight) const;
+
   /// Sets the uniforms common to all programs: eye, exposure scale and sun.
   void Set(const gl::GlProgram& program) const;
   /// For shaders/visible_surface.glsl.

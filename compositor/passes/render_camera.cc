@@ -55,6 +55,17 @@ RenderCamera FitRenderCamera(const CameraModel& camera, double supersampling) {
   return render;
 }
 
+RenderCamera CoarserBy(int step, const RenderCamera& camera) {
+  RenderCamera coarse = camera;
+  coarse.width = (camera.width + step - 1) / step;
+  coarse.height = (camera.height + step - 1) / step;
+  coarse.fx /= step;
+  coarse.fy /= step;
+  coarse.cx = (camera.cx + 0.5) / step - 0.5;
+  coarse.cy = (camera.cy + 0.5) / step - 0.5;
+  return coarse;
+}
+
 Image<float> RenderPositions(const CameraModel& camera, const RenderCamera& render) {
   Image<float> positions(camera.width, camera.height, 2);
   for (int y = 0; y < camera.height; ++y) {

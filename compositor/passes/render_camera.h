@@ -18,6 +18,9 @@ struct RenderCamera {
 /// that angle.
 RenderCamera FitRenderCamera(const CameraModel& camera, double supersampling);
 
+/// The same view with one pixel for `step` by `step`. At the right and bottom it may see more.
+RenderCamera CoarserBy(int step, const RenderCamera& camera);
+
 /// Maps each camera pixel to its position in the render image. Two channels: x and y in render
 /// texels, with texel centres at .5 (OpenGL's origin).
 Image<float> RenderPositions(const CameraModel& camera, const RenderCamera& render);

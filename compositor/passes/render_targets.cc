@@ -89,9 +89,15 @@ void RenderTargets::BeginObjects() const {
   framebuffers_.objects.ClearColor(0, 0, 0, 0, 0);
 }
 
-void RenderTargets::BeginRatio() const {
+void RenderTargets::BeginRatio(std::span<const PixelRect> drawn) const {
   framebuffers_.ratio.Bind();
-  framebuffers_.ratio.ClearColor(0, 1, 1, 1, 1);
+  framebuffers_.ratio.ClearColor(0, 1, 1, 1, 0);
+  glEnable(GL_SCISSOR_TEST);
+  for (const auto& [x, y, width, height] : drawn) {
+    glScissor(x, y, width, height);
+    framebuffers_.ratio.ClearColor(0, 1, 1, 1, 1);
+  }
+  glDisable(GL_SCISSOR_TEST);
 }
 
 void RenderTargets::BeginAirlight() const { framebuffers_.ratio_and_airlight.Bind(); }
@@ -99,7 +105,7 @@ void RenderTargets::BeginAirlight() const { framebuffers_.ratio_and_airlight.Bin
 void RenderTargets::BeginPass(bool back) const {
   (back ? framebuffers_.pass_back : framebuffers_.pass).Bind();
   if (back) return;
-  framebuffers_.pass.ClearColor(0, 1, 1, 1, 1);
+  framebuffers_.pass.ClearColor(0, 1, 1, 1, 0);
   framebuffers_.pass.ClearColor(1, 0, 0, 0, 0);
 }
 

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <span>
+
 #include "base/error.h"
+#include "compositor/surfaces/image_tiles.h"
 #include "gl/framebuffer.h"
 #include "gl/texture.h"
 
@@ -24,13 +27,13 @@ class RenderTargets {
   /// Directs drawing to objects(): premultiplied display-linear color with coverage, cleared to 0.
   /// Uses the depth of the classification.
   void BeginObjects() const;
-  /// Directs drawing to the shadow-catcher ratio, cleared to 1. Uses the depth of the
-  /// classification.
-  void BeginRatio() const;
+  /// Directs drawing to the shadow-catcher ratio, cleared to 1, with alpha 0 outside `drawn`. Uses
+  /// the depth of the classification.
+  void BeginRatio(std::span<const PixelRect> drawn) const;
   /// After BeginRatio(): directs drawing to the ratio (color 0) and to objects() (color 1).
   void BeginAirlight() const;
-  /// Directs drawing to the targets of a pass over ratio() and objects(), cleared as these. If
-  /// `back`, from those into ratio() and objects(), not cleared.
+  /// Directs drawing to the targets of a pass over ratio() and objects(), cleared as ratio()
+  /// with alpha 0 and objects(). If `back`, from those into ratio() and objects(), not cleared.
   void BeginPass(bool back) const;
   const gl::GlTexture& passed_ratio() const { return passed_.ratio; }
   const gl::GlTexture& passed_objects() const { return passed_.objects; }

@@ -16,6 +16,8 @@ namespace {
 constexpr int kMinMapWithoutSize_px = 1024, kMaxMapWithoutSize_px = 2048;
 constexpr float kReachSlack = 1.25F, kReachTexels = 6.0F;
 
+static_assert(std::tuple_size_v<decltype(ComposerOptions::fog)> == shadows::kMaxPartitions);
+
 }  // namespace
 
 shadows::ShadowMapOptions SceneShadows::MapOptions(const ComposerOptions& options, int picture_px) {

@@ -49,12 +49,16 @@ shadows::View ViewOf(const RenderCamera& camera,
   const auto [near_m, far_m] = DepthRange(camera_from_marker, bounds);
   shadows::View view;
   view.camera_from_marker = CameraFromMarkerMatrix(camera_from_marker);
+  view.near_m = near_m;
+  view.far_m = far_m;
+  return SeenBy(camera, view);
+}
+
+shadows::View SeenBy(const RenderCamera& camera, shadows::View view) {
   view.tan_left = (camera.cx + 0.5) / camera.fx;
   view.tan_right = (camera.width - 0.5 - camera.cx) / camera.fx;
   view.tan_up = (camera.cy + 0.5) / camera.fy;
   view.tan_down = (camera.height - 0.5 - camera.cy) / camera.fy;
-  view.near_m = near_m;
-  view.far_m = far_m;
   return view;
 }
 

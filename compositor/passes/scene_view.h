@@ -16,6 +16,9 @@ shadows::View ViewOf(const RenderCamera& camera,
                      const Transform<Camera, Marker>& camera_from_marker,
                      const shadows::Box& bounds);
 
+/// The view of another camera at the same place, with the same near and far planes.
+shadows::View SeenBy(const RenderCamera& camera, shadows::View view);
+
 /// Viewing rays in marker coordinates, not unit vectors. [0] + x [1] + y [2] is the ray through
 /// gl_FragCoord (x, y), one metre deep.
 std::array<glm::vec3, 3> RaysThroughPixels(const RenderCamera& camera, const shadows::View& view);

@@ -34,10 +34,8 @@ void ShadowRatioPass::DrawSurfaces(const RenderTargets& targets, const SceneSurf
   glDisable(GL_SCISSOR_TEST);
 }
 
-void ShadowRatioPass::Draw(const RenderTargets& targets, const SceneSurfaces& surfaces,
-                           const SurfacePrograms& programs, const FrameUniforms& frame,
-                           const ShadowOptions& options, std::span<const PixelRect> within) const {
-  using Change = AffectedTriangles::Change;
+void ShadowRatioPass::Begin(const RenderTargets& targets, const SceneSurfaces& surfaces,
+                            std::span<const PixelRect> within) const {
   no_attributes_.Bind();
   surfaces.triangles().Bind();
   targets.BeginSorting();
@@ -47,27 +45,48 @@ void ShadowRatioPass::Draw(const RenderTargets& targets, const SceneSurfaces& su
   sort_program_.Set("u_samples", targets.samples());
   DrawWithin(within);
 
-  targets.BeginRatio();
+  targets.BeginRatio(within);
   glDepthFunc(GL_EQUAL);
   glDepthMask(GL_FALSE);
   targets.seen().Bind(0);
-  const auto draw = [&](const gl::GlProgram& program, Change change, bool needs_airlight) {
-    program.Use();
-    program.Set("u_depth", DepthOf(change));
-    program.Set("u_samples", static_cast<float>(targets.samples()));
-    frame.Set(program);
-    frame.SetRays(program);
-    if (needs_airlight) frame.SetFog(program);
-    if (change == Change::kSun) {
-      program.Set("u_assumes_unmodelled_shadows", options.assume_unmodelled ? 1.0F : 0.0F);
-      program.Set("u_margin_half_m", static_cast<float>(options.margin_size_m / 2));
-      frame.SetSunTransmittance(program);
-    }
-    DrawWithin(within);
-  };
+}
+
+void ShadowRatioPass::Shade(const RenderTargets& targets, const FrameUniforms& frame,
+                            const gl::GlProgram& program, AffectedTriangles::Change change,
+                            bool needs_airlight, std::span<const PixelRect> within) const {
+  program.Use();
+  program.Set("u_depth", DepthOf(change));
+  program.Set("u_samples", static_cast<float>(targets.samples()));
+  frame.Set(program);
+  frame.SetRays(program);
+  if (needs_airlight) frame.SetFog(program);
+  DrawWithin(within);
+}
+
+void ShadowRatioPass::DrawSky(const RenderTargets& targets, const SceneSurfaces& surfaces,
+                              const SurfacePrograms& programs, const FrameUniforms& frame,
+                              const PixelRect& within) const {
+  const std::span<const PixelRect> whole(&within, 1);
+  Begin(targets, surfaces, whole);
+  surfaces.triangles().BindLinearRatios();
+  Shade(targets, frame, linear_program_, AffectedTriangles::kLinearSky, false, whole);
+  if (!frame.needs_airlight) {
+    surfaces.triangles().Bind();
+    const auto change = AffectedTriangles::kSunlitSky;
+    Shade(targets, frame, programs.phantoms[change], change, false, whole);
+  }
+  glDepthMask(GL_TRUE);
+  glDepthFunc(GL_LESS);
+}
+
+void ShadowRatioPass::Draw(const RenderTargets& targets, const SceneSurfaces& surfaces,
+                           const SurfacePrograms& programs, const FrameUniforms& frame,
+                           const ShadowOptions& options, std::span<const PixelRect> within) const {
+  using Change = AffectedTriangles::Change;
+  Begin(targets, surfaces, within);
   const auto draw_linear = [&](const gl::GlProgram& program, bool needs_airlight) {
     surfaces.triangles().BindLinearRatios();
-    draw(program, Change::kLinearSky, needs_airlight);
+    Shade(targets, frame, program, Change::kLinearSky, needs_airlight, within);
     surfaces.triangles().Bind();
   };
   if (!frame.linear_needs_airlight) draw_linear(linear_program_, false);
@@ -77,13 +96,23 @@ void ShadowRatioPass::Draw(const RenderTargets& targets, const SceneSurfaces& su
     glEnablei(GL_BLEND, 1);
     glBlendFuncSeparatei(1, GL_ONE, GL_ONE, GL_ZERO, GL_ONE);
   }
+  const gl::GlProgram& sun = programs.phantoms[Change::kSun];
+  sun.Set("u_assumes_unmodelled_shadows", options.assume_unmodelled ? 1.0F : 0.0F);
+  sun.Set("u_margin_half_m", static_cast<float>(options.margin_size_m / 2));
+  frame.SetSunTransmittance(sun);
   for (const Change change : {Change::kSun, Change::kSunlitSky}) {
-    draw(programs.phantoms[change], change, frame.needs_airlight);
+    Shade(targets, frame, programs.phantoms[change], change, frame.needs_airlight, within);
   }
   if (frame.linear_needs_airlight) draw_linear(linear_program_with_airlight_, true);
   if (frame.needs_airlight) glDisablei(GL_BLEND, 1);
   glDepthMask(GL_TRUE);
   glDepthFunc(GL_LESS);
+}
+
+void EnableSurfaceTests() {
+  glEnable(GL_DEPTH_TEST);
+  glEnable(GL_CULL_FACE);
+  glFrontFace(GL_CW);
 }
 
 }  // namespace pleinair::compositor

@@ -28,6 +28,12 @@ class ShadowRatioPass {
   void DrawSurfaces(const RenderTargets& targets, const SceneSurfaces& surfaces,
                     const FrameUniforms& frame, const PixelRect& within) const;
 
+  /// Shades the pixels of DrawSurfaces() where sky light alone changes and airlight is not
+  /// noticeable. The others have the ratio 1. State as Draw().
+  void DrawSky(const RenderTargets& targets, const SceneSurfaces& surfaces,
+               const SurfacePrograms& programs, const FrameUniforms& frame,
+               const PixelRect& within) const;
+
   struct ShadowOptions {
     bool assume_unmodelled = true;  ///< Composer::AssumeUnmodelledShadows().
     double margin_size_m = 0.0;     ///< Composer::SetMarkerMargin().
@@ -49,9 +55,20 @@ class ShadowRatioPass {
   }
 
  private:
+  /// Classifies the pixels and clears the ratio.
+  void Begin(const RenderTargets& targets, const SceneSurfaces& surfaces,
+             std::span<const PixelRect> within) const;
+  void Shade(const RenderTargets& targets, const FrameUniforms& frame, const gl::GlProgram& program,
+             AffectedTriangles::Change change, bool needs_airlight,
+             std::span<const PixelRect> within) const;
+
   gl::GlProgram id_program_, sort_program_;
   gl::GlProgram linear_program_, linear_program_with_airlight_;
   gl::GlVertexArray no_attributes_;
 };
+
+/// Enables depth test and face culling for the surfaces of a scene. Open surfaces have one triangle
+/// per side. Front faces are clockwise, because image rows run downwards.
+void EnableSurfaceTests();
 
 }  // namespace pleinair::compositor

@@ -23,7 +23,8 @@ constexpr double kOwnBlurPx = 0.29, kWarpedBlurPx = 0.33;
 constexpr double kMinBlur_px = 0.3, kMinNoiseSteps = 2.0;
 constexpr double kMaxBlur_px = 12.0;
 constexpr int kGrainSide = 256, kPixelValueTableSize = 4096;
-constexpr float kInterpolation_px = 1.0F;  // Texels beside a position that a sample reads.
+// Reach of a sample beside its position. The farther texel of a position on a border has no weight.
+constexpr float kInterpolation_px = 0.49F;
 
 }  // namespace
 
@@ -70,17 +71,19 @@ Result<CameraPicture> CameraPicture::Create(const CameraModel& camera, const Ren
       picture.programs_.blur,
       gl::GlProgram::Create({.vertex = "compositor/shaders/screen_triangle.vert",
                              .fragment = "compositor/shaders/blur.frag"}));
-  std::vector<std::string> composite_defines;
   PLEINAIR_RETURN_IF_ERROR(picture.CreateResponseTables());
-  if (!picture.response_.curve.IsSrgb()) {
-    composite_defines.emplace_back("CAMERA_RESPONSE");
-  }
-  for (gl::GlProgram* program : {&picture.programs_.composite, &picture.programs_.grain}) {
-    if (program == &picture.programs_.grain) composite_defines.emplace_back("GRAIN");
-    PLEINAIR_ASSIGN_OR_RETURN(
-        *program, gl::GlProgram::Create({.vertex = "compositor/shaders/screen_triangle.vert",
-                                         .fragment = "compositor/shaders/composite.frag",
-                                         .defines = composite_defines}));
+  for (const bool coarse : {false, true}) {
+    for (const bool grain : {false, true}) {
+      std::vector<std::string> defines;
+      if (!response.IsSrgb()) defines.emplace_back("CAMERA_RESPONSE");
+      if (coarse) defines.emplace_back("COARSE_RATIO");
+      if (grain) defines.emplace_back("GRAIN");
+      PLEINAIR_ASSIGN_OR_RETURN(
+          picture.programs_.composite[coarse ? 1 : 0][grain ? 1 : 0],
+          gl::GlProgram::Create({.vertex = "compositor/shaders/screen_triangle.vert",
+                                 .fragment = "compositor/shaders/composite.frag",
+                                 .defines = defines}));
+    }
   }
   return picture;
 }
@@ -152,15 +155,14 @@ void CameraPicture::Blur(const RenderTargets& targets, std::span<const PixelRect
   }
 }
 
-void CameraPicture::SetGrain() const {
+void CameraPicture::SetGrain(const gl::GlProgram& program) const {
   const CameraLook& look = *grain_.look;
   const auto to_glm = [](const std::array<double, 3>& a) { return glm::vec3(a[0], a[1], a[2]); };
   const std::uint32_t offset = Hash(grain_.pictures, 0x6A);
-  programs_.grain.Set("u_grain_offset",
-                      glm::ivec2(offset % kGrainSide, offset / kGrainSide % kGrainSide));
-  programs_.grain.Set("u_noise_constant", to_glm(look.noise_constant));
-  programs_.grain.Set("u_noise_slope", to_glm(look.noise_slope));
-  programs_.grain.Set("u_channel_correlation", static_cast<float>(look.channel_correlation));
+  program.Set("u_grain_offset", glm::ivec2(offset % kGrainSide, offset / kGrainSide % kGrainSide));
+  program.Set("u_noise_constant", to_glm(look.noise_constant));
+  program.Set("u_noise_slope", to_glm(look.noise_slope));
+  program.Set("u_channel_correlation", static_cast<float>(look.channel_correlation));
   grain_.texture.Bind(6);
 }
 
@@ -168,38 +170,56 @@ void CameraPicture::SetBackground(ImageView<const std::uint8_t> rgb) {
   background_.Upload(GL_RGB, GL_UNSIGNED_BYTE, rgb.data());
 }
 
-void CameraPicture::Draw(const RenderTargets& targets, const ImageTiles& tiles) {
-  if (added_blur_px_ > 0.0) Blur(targets, tiles.Rectangles());
-  ImageTiles drawn(camera_.width, camera_.height);
+ImageTiles CameraPicture::SetTiles(const AffectedTiles& tiles) {
+  ImageTiles fine = tiles.fine;
+  ImageTiles drawn_fine(camera_.width, camera_.height), drawn_coarse = drawn_fine;
   for (const Sampled& sampled : sampled_) {
     const auto& [x, y, width, height] = sampled.tile;
-    if (tiles.Touches(sampled.low, sampled.high)) {
-      drawn.Include({x + 0.5F, y + 0.5F}, {x + width - 0.5F, y + height - 0.5F});
+    const glm::vec2 low(x + 0.5F, y + 0.5F), high(x + width - 0.5F, y + height - 0.5F);
+    if (tiles.fine.Touches(sampled.low, sampled.high)) {
+      drawn_fine.Include(low, high);
+      fine.Include(sampled.low, sampled.high);
+    } else if (tiles.all.Touches(sampled.low, sampled.high)) {
+      drawn_coarse.Include(low, high);
     }
   }
-  output_.drawn = drawn.Rectangles();
+  output_.fine = drawn_fine.Rectangles();
+  output_.coarse = drawn_coarse.Rectangles();
+  return fine;
+}
+
+void CameraPicture::Draw(const RenderTargets& targets, const gl::GlTexture& coarse_ratio,
+                         const ImageTiles& fine) {
+  if (added_blur_px_ > 0.0) Blur(targets, fine.Rectangles());
   output_.framebuffer.Bind();
-  (grain_.look ? programs_.grain : programs_.composite).Use();
-  if (grain_.look) SetGrain();
-  ++grain_.pictures;
   if (!response_.curve.IsSrgb()) {
     response_.light_of_pixel_value.Bind(4);
     response_.pixel_value_of_light.Bind(5);
   }
   background_.Bind(0);
-  targets.ratio().Bind(1);
   targets.objects().Bind(2);
   positions_.Bind(3);
   no_attributes_.Bind();
-  DrawWithin(output_.drawn);
+  const auto draw = [&](const gl::GlTexture& ratio, bool coarse) {
+    const gl::GlProgram& program = programs_.composite[coarse ? 1 : 0][grain_.look ? 1 : 0];
+    program.Use();
+    if (grain_.look) SetGrain(program);
+    ratio.Bind(1);
+    DrawWithin(coarse ? output_.coarse : output_.fine);
+  };
+  draw(targets.ratio(), false);
+  draw(coarse_ratio, true);
+  ++grain_.pictures;
 }
 
 RgbImage CameraPicture::Read(ImageView<const std::uint8_t> rgb) const {
   RgbImage composed(camera_.width, camera_.height, 3);
   std::copy_n(rgb.data(), composed.size(), composed.data());
-  for (const auto& [x, y, width, height] : output_.drawn) {
-    output_.framebuffer.ReadRectangle(x, y, width, height, GL_RGB, GL_UNSIGNED_BYTE, camera_.width,
-                                      &composed(x, y));
+  for (const auto* rectangles : {&output_.fine, &output_.coarse}) {
+    for (const auto& [x, y, width, height] : *rectangles) {
+      output_.framebuffer.ReadRectangle(x, y, width, height, GL_RGB, GL_UNSIGNED_BYTE,
+                                        camera_.width, &composed(x, y));
+    }
   }
   return composed;
 }

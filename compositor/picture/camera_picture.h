@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
@@ -39,9 +40,14 @@ class CameraPicture {
   void SetBackground(ImageView<const std::uint8_t> rgb);
   /// Farthest render pixels, along a row or column, that a drawn one is spread to. 0 without blur.
   int Spread_px() const { return added_blur_px_ > 0.0 ? 2 * BlurReach_px() : 0; }
-  /// Composes the drawn and resolved `targets`. The blur is applied to them in place. `tiles`: all
-  /// render pixels within Spread_px() of a ratio other than 1 or of an object.
-  void Draw(const RenderTargets& targets, const ImageTiles& tiles);
+  /// Sets the tiles of the render image for the next Draw(). `tiles.all` must have all render
+  /// pixels within Spread_px() of a ratio other than 1 or of an object, `tiles.fine` those that
+  /// need the full resolution. Returns the tiles that must be drawn at full resolution.
+  ImageTiles SetTiles(const AffectedTiles& tiles);
+  /// Composes the drawn and resolved `targets` and the coarse ratio. The blur is applied to the
+  /// `fine` tiles of `targets` in place.
+  void Draw(const RenderTargets& targets, const gl::GlTexture& coarse_ratio,
+            const ImageTiles& fine);
   /// Binds the camera image, the render pixels' positions in it, and the table of linear light per
   /// pixel value.
   void BindForShading(int background_unit, int positions_unit, int light_unit) const {
@@ -65,7 +71,7 @@ class CameraPicture {
   struct Output {
     gl::GlTexture picture;
     gl::GlFramebuffer framebuffer;
-    std::vector<PixelRect> drawn;  // In the last Draw().
+    std::vector<PixelRect> fine, coarse;  // By the resolution of the virtual image in them.
   };
   /// Render pixels that a tile of the camera image samples.
   struct Sampled {
@@ -73,7 +79,9 @@ class CameraPicture {
     glm::vec2 low{1e30F}, high{-1e30F};
   };
   struct Programs {
-    gl::GlProgram blur, composite, grain;
+    // Second index: without and with grain. First index: fine and coarse.
+    std::array<std::array<gl::GlProgram, 2>, 2> composite;
+    gl::GlProgram blur;
   };
   /// The sensor's noise.
   struct Grain {
@@ -87,7 +95,7 @@ class CameraPicture {
   Result<void> CreateResponseTables();
   int BlurReach_px() const;
   void Blur(const RenderTargets& targets, std::span<const PixelRect> within) const;
-  void SetGrain() const;
+  void SetGrain(const gl::GlProgram& program) const;
 
   CameraModel camera_;
   double supersampling_ = 1.0;

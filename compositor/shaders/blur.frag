@@ -1,5 +1,6 @@
 #version 450 core
-// One direction of a separable Gaussian over the two virtual images, render pixels.
+// One direction of a separable Gaussian over the two virtual images, render pixels. Ratios without
+// alpha are not drawn at full resolution; they are omitted.
 
 layout(binding = 1) uniform sampler2D u_ratio;
 layout(binding = 2) uniform sampler2D u_objects;
@@ -21,10 +22,11 @@ void main() {
     float t = float(i) / u_sigma_px;
     float weight = exp(-0.5 * t * t);
     ivec2 at = clamp(pixel + i * u_direction, ivec2(0), last);
-    ratio += weight * texelFetch(u_ratio, at, 0);
+    vec4 here = texelFetch(u_ratio, at, 0);
+    ratio += weight * here.a * vec4(here.rgb, 1.0);
     objects += weight * texelFetch(u_objects, at, 0);
     weights += weight;
   }
-  out_ratio = ratio / weights;
+  out_ratio = ratio / max(ratio.a, 1e-6);
   out_objects = objects / weights;
 }

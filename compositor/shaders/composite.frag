@@ -2,7 +2,8 @@
 // Composites the virtual objects into the camera image, one invocation per camera pixel.
 //
 // CAMERA_RESPONSE: pixel values follow the camera's own response, by table, instead of sRGB. GRAIN:
-// drawn pixels receive the camera's noise.
+// drawn pixels receive the camera's noise. COARSE_RATIO: the ratio is on the grid of
+// compositor/passes/coarse_ratio.h, and there is no object.
 
 #include "compositor/shaders/srgb_transfer.glsl"
 
@@ -58,9 +59,16 @@ vec3 MissingGrain(ivec2 pixel, vec3 light, vec3 behind, vec3 kept) {
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   vec4 background = texelFetch(u_background, pixel, 0);
-  vec2 at = texelFetch(u_positions, pixel, 0).xy / vec2(textureSize(u_objects, 0));
+  vec2 position = texelFetch(u_positions, pixel, 0).xy;
+#ifdef COARSE_RATIO
+  const float kStep_px = 4.0;
+  vec4 object = vec4(0.0);
+  vec3 ratio = texture(u_ratio, position / (kStep_px * vec2(textureSize(u_ratio, 0)))).rgb;
+#else
+  vec2 at = position / vec2(textureSize(u_objects, 0));
   vec4 object = texture(u_objects, at);
   vec3 ratio = texture(u_ratio, at).rgb;
+#endif
   if (object.a == 0.0 && ratio == vec3(1.0)) {
     out_encoded = background;
     return;

@@ -5,6 +5,17 @@
 
 namespace pleinair::compositor {
 
+namespace {
+
+// Two pixels of the coarse grid (passes/coarse_ratio.h): interpolation beside a fine tile must not
+// read a pixel of the grid that shows what only fine tiles draw.
+constexpr int kCoarseReach_px = 8;
+// Pixels whose ratio and blur take the software renderer as long as drawing a triangle once more
+// (docs/measurements/performance.md).
+constexpr int kPixelsPerTriangle = 6, kBlurredPixelsPerTriangle = 2;
+
+}  // namespace
+
 bool SunOnPhantoms::IsAsGoodAs(const SunOnPhantoms& other) const {
   // Relative. The objects' effect on skylight hardly depends on the sun.
   constexpr float kSameSun = 0.02F;
@@ -68,9 +79,10 @@ void DrawReduction::SortPhantoms(const SunOnPhantoms& sun,
 
 AffectedTiles DrawReduction::TilesOf(const SceneProjection& image,
                                      std::span<const glm::mat4> objects_moved) const {
-  AffectedTiles tiles{ImageTiles(image), ImageTiles(image)};
+  AffectedTiles tiles{ImageTiles(image), ImageTiles(image), ImageTiles(image)};
   if (!reductions_.affected_tiles) {
     tiles.objects.IncludeAll();
+    tiles.fine.IncludeAll();
     tiles.all.IncludeAll();
     return tiles;
   }
@@ -80,9 +92,24 @@ AffectedTiles DrawReduction::TilesOf(const SceneProjection& image,
     tiles.objects.Include(moved, object_positions_[object], objects_[object].indices());
   }
   tiles.all.Include(tiles.objects);
+  tiles.fine.Include(tiles.objects);
+  SceneProjection fine = image;
+  fine.spread_px += kCoarseReach_px;
+  int triangles = 0;
   for (const AffectedTriangles& phantom : phantoms_) {
+    const auto resolved = static_cast<std::size_t>(
+        phantom.ends()[image.resolves_sunlit_sky ? AffectedTriangles::kSunlitSky
+                                                 : AffectedTriangles::kSun]);
     const auto affected = static_cast<std::size_t>(phantom.ends()[AffectedTriangles::kLinearSky]);
     tiles.all.Include(image, phantom.positions(), phantom.indices().first(affected));
+    tiles.fine.Include(fine, phantom.positions(), phantom.indices().first(resolved));
+    triangles += phantom.ends()[AffectedTriangles::kNothing] / 3;
+  }
+  const int per_triangle = image.spread_px > 0 ? kBlurredPixelsPerTriangle : kPixelsPerTriangle;
+  const int saved_px =
+      tiles.all.Without(tiles.fine).Count() * ImageTiles::kSide_px * ImageTiles::kSide_px;
+  if (!reductions_.coarse_sky_ratio || saved_px < per_triangle * triangles) {
+    tiles.fine.Include(tiles.all);
   }
   return tiles;
 }

@@ -59,7 +59,7 @@ class DrawReduction {
   /// changed. `to_sun`: as SunFacingTriangles::Sort().
   bool SortObject(std::size_t object, const glm::vec3& to_sun);
 
-  /// Returns the tiles of an image that show objects, and those that show anything affected.
+  /// Returns the tiles of an image that the objects affect.
   /// `objects_moved`: as SortPhantoms().
   AffectedTiles TilesOf(const SceneProjection& image,
                         std::span<const glm::mat4> objects_moved) const;

@@ -122,6 +122,32 @@ std::vector<PixelRect> ImageTiles::Rectangles() const {
   return rectangles;
 }
 
+ImageTiles ImageTiles::Without(const ImageTiles& other) const {
+  ImageTiles tiles = *this;
+  std::transform(included_.begin(), included_.end(), other.included_.begin(),
+                 tiles.included_.begin(),
+                 [](char here, char there) { return static_cast<char>(here & ~there & 1); });
+  return tiles;
+}
+
+ImageTiles ImageTiles::Where(const std::function<bool(const PixelRect&)>& chosen) const {
+  ImageTiles tiles(size_px_.x, size_px_.y);
+  for (int y = 0; y < tiles_.y; ++y) {
+    for (int x = 0; x < tiles_.x; ++x) {
+      const auto at = static_cast<std::size_t>(y * tiles_.x + x);
+      if (included_[at] == 0) continue;
+      const glm::ivec2 first = glm::ivec2(x, y) * kSide_px;
+      const glm::ivec2 size = glm::min(glm::ivec2(kSide_px), size_px_ - first);
+      tiles.included_[at] = chosen({first.x, first.y, size.x, size.y}) ? 1 : 0;
+    }
+  }
+  return tiles;
+}
+
+int ImageTiles::Count() const {
+  return static_cast<int>(std::count(included_.begin(), included_.end(), 1));
+}
+
 PixelRect ImageTiles::Bounds() const {
   glm::ivec2 low = size_px_, high(0);
   for (const PixelRect& r : Rectangles()) {

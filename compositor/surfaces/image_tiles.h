@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <glm/glm.hpp>
 #include <span>
 #include <vector>
@@ -20,6 +21,8 @@ struct SceneProjection {
   int spread_px = 0;
   glm::mat4 clip_from_position{1.0F};  ///< To OpenGL's clip space; w is the depth in metres.
   float near_m = 0.0F;                 ///< Nearer parts are not drawn.
+  /// Whether triangles of AffectedTriangles::kSunlitSky need the full resolution.
+  bool resolves_sunlit_sky = false;
 };
 
 /// Square tiles of an image that a pass has to draw. Row 0 is the row of gl_FragCoord's y = 0.5.
@@ -48,6 +51,12 @@ class ImageTiles {
   bool Touches(glm::vec2 low, glm::vec2 high) const;
   /// Returns disjoint rectangles that together are the tiles of the set.
   std::vector<PixelRect> Rectangles() const;
+  /// Returns the tiles of the set that another one lacks.
+  ImageTiles Without(const ImageTiles& other) const;
+  /// Returns the tiles of the set for whose pixels `chosen` returns true.
+  ImageTiles Where(const std::function<bool(const PixelRect&)>& chosen) const;
+  /// Returns the number of tiles of the set.
+  int Count() const;
   /// Returns the smallest rectangle with all tiles of the set.
   PixelRect Bounds() const;
 
@@ -64,6 +73,7 @@ class ImageTiles {
 /// Tiles that virtual objects affect.
 struct AffectedTiles {
   ImageTiles objects;  ///< With objects in them.
+  ImageTiles fine;     ///< Also those with a change that a coarse grid does not resolve.
   ImageTiles all;      ///< Also those with surfaces whose light changes.
 };
 

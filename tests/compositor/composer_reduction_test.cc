@@ -65,6 +65,29 @@ TEST(ComposerReduction, ChangesNextToNothingInTheCourtyard) {
   EXPECT_EQ(MaxDifference(draw({}), reduced), 0) << "they can be taken up again";
 }
 
+TEST(ComposerReduction, InterpolatesTheRatioOfSkyLightWithoutNoticeableError) {
+  const testing::Courtyard& courtyard = TheCourtyard();
+  const RgbImage picture = courtyard.Picture();
+  std::array<RgbImage, 2> composed;
+  for (const bool coarse : {false, true}) {
+    const auto composer = courtyard.MakeComposer({.reductions = {.coarse_sky_ratio = coarse}});
+    // With a blur the coarse grid saves enough to be used for so small an image.
+    ASSERT_TRUE(composer->SetCameraLook(CameraLook{.blur_px = 0.9}));
+    composed[coarse ? 1 : 0] =
+        composer
+            ->Compose(picture.view(), courtyard.poses()[testing::Courtyard::kKeyFrame],
+                      courtyard.ExposureScale())
+            .value();
+  }
+  EXPECT_GT(MaxDifference(composed[0], composed[1]), 0) << "the option is heard";
+  EXPECT_LE(MaxDifference(composed[0], composed[1]), 2);
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < picture.size(); ++i) {
+    different += composed[0].data()[i] != composed[1].data()[i] ? 1 : 0;
+  }
+  EXPECT_LT(different, picture.size() / 100);
+}
+
 TEST(ComposerReduction, DrawsTheSameBytesInAffectedTilesAsInTheWholePicture) {
   const testing::Courtyard& courtyard = TheCourtyard();
   const RgbImage picture = courtyard.Picture();
@@ -77,7 +100,8 @@ TEST(ComposerReduction, DrawsTheSameBytesInAffectedTilesAsInTheWholePicture) {
     lens.distortion = {k1};
     std::array<RgbImage, 2> composed;
     for (const bool tiles : {false, true}) {
-      const auto composer = courtyard.MakeComposer({.reductions = {.affected_tiles = tiles}}, lens);
+      const auto composer = courtyard.MakeComposer(
+          {.reductions = {.affected_tiles = tiles, .coarse_sky_ratio = false}}, lens);
       ASSERT_TRUE(composer->SetCameraLook(look));
       // Each frame finds what the one before has left in the targets.
       for (const std::size_t frame : {std::size_t{0}, std::size_t{testing::Courtyard::kKeyFrame}}) {

@@ -58,6 +58,18 @@ TEST(RenderCamera, PutsAPointWhereTheRealLensSeesIt) {
   EXPECT_NEAR(back.y, 10, 1e-6);
 }
 
+TEST(RenderCamera, HasTheSameRaysOnACoarserGrid) {
+  const RenderCamera fine{.width = 161, .height = 120, .fx = 150, .fy = 151, .cx = 70.5, .cy = 60};
+  const RenderCamera coarse = CoarserBy(4, fine);
+  EXPECT_EQ(coarse.width, 41);
+  EXPECT_EQ(coarse.height, 30);
+  // The centre of a coarse pixel is the corner between the middle four of its sixteen pixels.
+  for (const int pixel : {0, 7, 29}) {
+    EXPECT_NEAR((pixel - coarse.cx) / coarse.fx, (4 * pixel + 1.5 - fine.cx) / fine.fx, 1e-12);
+    EXPECT_NEAR((pixel - coarse.cy) / coarse.fy, (4 * pixel + 1.5 - fine.cy) / fine.fy, 1e-12);
+  }
+}
+
 // Two metres in front of the marker's centre, turned about two axes.
 const CameraModel kPinhole{
     .width = 160, .height = 120, .fx = 150, .fy = 151, .cx = 70.5, .cy = 60.25};

@@ -68,9 +68,10 @@ class Scene {
   std::size_t linear_ratios() const { return reduction_.phantoms()[0].linear_ratios().size(); }
   int facing() const { return reduction_.objects()[0].facing_end() / 3; }
   /// Tiles of an image of four by two tiles, one a metre, with the origin in the second row.
-  AffectedTiles tiles() const {
+  AffectedTiles tiles(bool resolves_sunlit_sky = false) const {
     SceneProjection image{.width = 256, .height = 128, .near_m = 0.1F};
-    image.clip_from_position = {{0.5F, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 0, 0}, {-0.95F, 0.1F, 0, 1}};
+    image.clip_from_position = {{0.5F, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 0, 0}, {-0.95F, 0.25F, 0, 1}};
+    image.resolves_sunlit_sky = resolves_sunlit_sky;
     return reduction_.TilesOf(image, std::vector<glm::mat4>{glm::mat4(1.0F)});
   }
 
@@ -83,6 +84,9 @@ TEST(DrawReduction, DrawsTheTilesOfObjectsAndOfWhatTheyAffect) {
   EXPECT_THAT(tiles.objects.Rectangles(), ElementsAre(PixelRect{0, 64, 64, 64}));
   EXPECT_THAT(tiles.all.Rectangles(), ElementsAre(PixelRect{0, 64, 192, 64}))
       << "nothing changes on the last triangle";
+  EXPECT_THAT(tiles.fine.Rectangles(), ElementsAre(PixelRect{0, 64, 64, 64}))
+      << "where the sunlight may change";
+  EXPECT_THAT(Scene({}).tiles(true).fine.Rectangles(), ElementsAre(PixelRect{0, 64, 192, 64}));
 }
 
 Scene Without(bool DrawReductions::*reduction) {
@@ -117,7 +121,10 @@ TEST(DrawReduction, SwitchesEachReductionOffByItself) {
   EXPECT_EQ(Without(&DrawReductions::sun_facing_triangles).facing(), 2);
   const AffectedTiles tiles = Without(&DrawReductions::affected_tiles).tiles();
   EXPECT_THAT(tiles.objects.Rectangles(), ElementsAre(PixelRect{0, 0, 256, 128}));
+  EXPECT_THAT(tiles.fine.Rectangles(), ElementsAre(PixelRect{0, 0, 256, 128}));
   EXPECT_THAT(tiles.all.Rectangles(), ElementsAre(PixelRect{0, 0, 256, 128}));
+  EXPECT_THAT(Without(&DrawReductions::coarse_sky_ratio).tiles().fine.Rectangles(),
+              ElementsAre(PixelRect{0, 64, 192, 64}));
 }
 
 }  // namespace

@@ -81,6 +81,19 @@ TEST(ImageTiles, HoldEveryVisiblePointOfATriangle) {
   EXPECT_GT(beside, 100) << "not always all";
 }
 
+TEST(ImageTiles, AreChosenAmongOthers) {
+  ImageTiles tiles(200, 150), others(200, 150);
+  tiles.Include({10, 10}, {150, 20});
+  others.Include({70, 10}, {80, 140});
+  EXPECT_EQ(tiles.Count(), 3);
+  EXPECT_THAT(tiles.Without(others).Rectangles(),
+              ElementsAre(PixelRect{0, 0, 64, 64}, PixelRect{128, 0, 64, 64}));
+  tiles.IncludeAll();
+  EXPECT_THAT(tiles.Where([](const PixelRect& tile) { return tile.width < 64 && tile.y == 128; })
+                  .Rectangles(),
+              ElementsAre(PixelRect{192, 128, 8, 22}));
+}
+
 TEST(ImageTiles, HaveDisjointRectanglesThatCoverThem) {
   ImageTiles tiles(640, 480);
   EXPECT_EQ(tiles.Bounds(), PixelRect{});

@@ -1,0 +1,25 @@
+#include "compositor/canvas.h"
+
+namespace pleinair::compositor {
+namespace {
+
+constexpr double kWarpedSupersampling = 1.5;
+
+}  // namespace
+
+Result<Canvas> Canvas::Create(const CameraModel& camera, const ComposerOptions& options,
+                              bool detailed) {
+  const double supersampling = options.supersampling > 0.0 ? options.supersampling
+                               : camera.HasDistortion()    ? kWarpedSupersampling
+                                                           : 1.0;
+  Canvas canvas;
+  canvas.camera = FitRenderCamera(camera, supersampling);
+  PLEINAIR_ASSIGN_OR_RETURN(
+      canvas.targets, RenderTargets::Create(canvas.camera.width, canvas.camera.height, detailed));
+  PLEINAIR_ASSIGN_OR_RETURN(canvas.coarse, CoarseRatio::Create(canvas.camera));
+  PLEINAIR_ASSIGN_OR_RETURN(canvas.picture, CameraPicture::Create(camera, canvas.camera,
+                                                                  supersampling, options.response));
+  return canvas;
+}
+
+}  // namespace pleinair::compositor

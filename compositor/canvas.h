@@ -1,0 +1,26 @@
+#pragma once
+
+#include "base/camera_model.h"
+#include "base/error.h"
+#include "compositor/composer_options.h"
+#include "compositor/passes/coarse_ratio.h"
+#include "compositor/passes/render_camera.h"
+#include "compositor/passes/render_targets.h"
+#include "compositor/picture/camera_picture.h"
+
+namespace pleinair::compositor {
+
+/// What a Composer draws into, for one image size. Needs a current OpenGL context; move-only.
+struct Canvas {
+  RenderCamera camera;
+  RenderTargets targets;
+  CoarseRatio coarse;
+  CameraPicture picture;
+
+  /// `detailed`: as RenderTargets::Create(). Errors as RenderTargets::Create() and
+  /// CameraPicture::Create().
+  static Result<Canvas> Create(const CameraModel& camera, const ComposerOptions& options,
+                               bool detailed);
+};
+
+}  // namespace pleinair::compositor
