@@ -367,9 +367,11 @@ Result<RgbImage> GlComposer::Compose(ImageView<const std::uint8_t> rgb,
   PLEINAIR_ASSIGN_OR_RETURN(const shadows::View view, UpdateScene(camera_from_marker));
   const FrameUniforms frame = FrameOf(view, camera_from_marker, exposure_scale);
   PLEINAIR_ASSIGN_OR_RETURN(const SurfacePrograms* programs, ProgramsFor(frame));
-  const AffectedTiles tiles = DrawCoarse(*programs, view, frame);
+  AffectedTiles tiles = DrawCoarse(*programs, view, frame);
   DrawScene(*programs, frame, tiles);
-  canvas_.picture.Draw(canvas_.targets, canvas_.coarse.ratio(), tiles.fine);
+  // Airlight in front of surfaces is drawn into the objects' image.
+  if (frame.needs_airlight) tiles.objects.Include(tiles.fine);
+  canvas_.picture.Draw(canvas_.targets, canvas_.coarse.ratio(), tiles);
   if (options_.show_shadow_maps && light_.HasSun()) {
     PLEINAIR_RETURN_IF_ERROR(DrawDebugView(view));
   }

@@ -67,15 +67,17 @@ Result<CameraPicture> CameraPicture::Create(const CameraModel& camera, const Ren
   PLEINAIR_ASSIGN_OR_RETURN(picture.output_.framebuffer,
                             gl::GlFramebuffer::Create({{{&picture.output_.picture}}, {}}));
   picture.no_attributes_ = gl::GlVertexArray::Create();
-  PLEINAIR_ASSIGN_OR_RETURN(
-      picture.programs_.blur,
-      gl::GlProgram::Create({.vertex = "compositor/shaders/screen_triangle.vert",
-                             .fragment = "compositor/shaders/blur.frag"}));
+  gl::ProgramStages blur{.vertex = "compositor/shaders/screen_triangle.vert",
+                         .fragment = "compositor/shaders/blur.frag"};
+  PLEINAIR_ASSIGN_OR_RETURN(picture.programs_.blur, gl::GlProgram::Create(blur));
+  blur.defines = {"NO_OBJECTS"};
+  PLEINAIR_ASSIGN_OR_RETURN(picture.programs_.blur_of_ratio, gl::GlProgram::Create(blur));
   PLEINAIR_RETURN_IF_ERROR(picture.CreateResponseTables());
   for (const bool coarse : {false, true}) {
     for (const bool grain : {false, true}) {
       std::vector<std::string> defines;
       if (!response.IsSrgb()) defines.emplace_back("CAMERA_RESPONSE");
+      if (!camera.HasDistortion() && supersampling == 1.0) defines.emplace_back("SAME_PIXELS");
       if (coarse) defines.emplace_back("COARSE_RATIO");
       if (grain) defines.emplace_back("GRAIN");
       PLEINAIR_ASSIGN_OR_RETURN(
@@ -140,18 +142,22 @@ int CameraPicture::BlurReach_px() const {
 }
 
 /// Blurs both virtual images, along the rows and then along the columns.
-void CameraPicture::Blur(const RenderTargets& targets, std::span<const PixelRect> within) const {
-  const double sigma = added_blur_px_ * supersampling_;
-  programs_.blur.Use();
-  programs_.blur.Set("u_sigma_px", static_cast<float>(sigma));
-  programs_.blur.Set("u_reach_px", BlurReach_px());
+void CameraPicture::Blur(const RenderTargets& targets, const AffectedTiles& tiles) const {
+  const std::vector<PixelRect> objects = tiles.objects.Rectangles();
+  const std::vector<PixelRect> others = tiles.fine.Without(tiles.objects).Rectangles();
   no_attributes_.Bind();
   for (const bool back : {false, true}) {
     targets.BeginPass(back);
     (back ? targets.passed_ratio() : targets.ratio()).Bind(1);
     (back ? targets.passed_objects() : targets.objects()).Bind(2);
-    programs_.blur.Set("u_direction", back ? glm::ivec2(0, 1) : glm::ivec2(1, 0));
-    DrawWithin(within);
+    for (const bool has_objects : {true, false}) {
+      const gl::GlProgram& program = has_objects ? programs_.blur : programs_.blur_of_ratio;
+      program.Use();
+      program.Set("u_sigma_px", static_cast<float>(added_blur_px_ * supersampling_));
+      program.Set("u_reach_px", BlurReach_px());
+      program.Set("u_direction", back ? glm::ivec2(0, 1) : glm::ivec2(1, 0));
+      DrawWithin(has_objects ? objects : others);
+    }
   }
 }
 
@@ -189,8 +195,8 @@ ImageTiles CameraPicture::SetTiles(const AffectedTiles& tiles) {
 }
 
 void CameraPicture::Draw(const RenderTargets& targets, const gl::GlTexture& coarse_ratio,
-                         const ImageTiles& fine) {
-  if (added_blur_px_ > 0.0) Blur(targets, fine.Rectangles());
+                         const AffectedTiles& tiles) {
+  if (added_blur_px_ > 0.0) Blur(targets, tiles);
   output_.framebuffer.Bind();
   if (!response_.curve.IsSrgb()) {
     response_.light_of_pixel_value.Bind(4);

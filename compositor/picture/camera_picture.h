@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "base/camera_model.h"
@@ -44,10 +43,10 @@ class CameraPicture {
   /// pixels within Spread_px() of a ratio other than 1 or of an object, `tiles.fine` those that
   /// need the full resolution. Returns the tiles that must be drawn at full resolution.
   ImageTiles SetTiles(const AffectedTiles& tiles);
-  /// Composes the drawn and resolved `targets` and the coarse ratio. The blur is applied to the
-  /// `fine` tiles of `targets` in place.
+  /// Composes the drawn and resolved `targets` and the coarse ratio. The blur is applied to
+  /// `targets` in place, in the tiles with objects and those drawn at full resolution.
   void Draw(const RenderTargets& targets, const gl::GlTexture& coarse_ratio,
-            const ImageTiles& fine);
+            const AffectedTiles& tiles);
   /// Binds the camera image, the render pixels' positions in it, and the table of linear light per
   /// pixel value.
   void BindForShading(int background_unit, int positions_unit, int light_unit) const {
@@ -81,7 +80,7 @@ class CameraPicture {
   struct Programs {
     // Second index: without and with grain. First index: fine and coarse.
     std::array<std::array<gl::GlProgram, 2>, 2> composite;
-    gl::GlProgram blur;
+    gl::GlProgram blur, blur_of_ratio;
   };
   /// The sensor's noise.
   struct Grain {
@@ -94,7 +93,7 @@ class CameraPicture {
   static Sampled SampledFrom(int x, int y, const Image<float>& positions);
   Result<void> CreateResponseTables();
   int BlurReach_px() const;
-  void Blur(const RenderTargets& targets, std::span<const PixelRect> within) const;
+  void Blur(const RenderTargets& targets, const AffectedTiles& tiles) const;
   void SetGrain(const gl::GlProgram& program) const;
 
   CameraModel camera_;

@@ -3,7 +3,8 @@
 //
 // CAMERA_RESPONSE: pixel values follow the camera's own response, by table, instead of sRGB. GRAIN:
 // drawn pixels receive the camera's noise. COARSE_RATIO: the ratio is on the grid of
-// compositor/passes/coarse_ratio.h, and there is no object.
+// compositor/passes/coarse_ratio.h, and there is no object. SAME_PIXELS: render pixels are camera
+// pixels.
 
 #include "compositor/shaders/srgb_transfer.glsl"
 
@@ -11,7 +12,9 @@ layout(binding = 0) uniform sampler2D u_background;  // Pixel values / 255, row 
 // Mean of differential.glsl over a pixel's samples, 1 where an object covers them. Render image.
 layout(binding = 1) uniform sampler2D u_ratio;
 layout(binding = 2) uniform sampler2D u_objects;      // Premultiplied display-linear, coverage.
+#ifndef SAME_PIXELS
 layout(binding = 3) uniform sampler2D u_positions;    // RenderPositions(), texels.
+#endif
 
 layout(location = 0) out vec4 out_encoded;
 
@@ -59,11 +62,18 @@ vec3 MissingGrain(ivec2 pixel, vec3 light, vec3 behind, vec3 kept) {
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   vec4 background = texelFetch(u_background, pixel, 0);
+#ifdef SAME_PIXELS
+  vec2 position = gl_FragCoord.xy;
+#else
   vec2 position = texelFetch(u_positions, pixel, 0).xy;
+#endif
 #ifdef COARSE_RATIO
   const float kStep_px = 4.0;
   vec4 object = vec4(0.0);
   vec3 ratio = texture(u_ratio, position / (kStep_px * vec2(textureSize(u_ratio, 0)))).rgb;
+#elif defined(SAME_PIXELS)
+  vec4 object = texelFetch(u_objects, pixel, 0);
+  vec3 ratio = texelFetch(u_ratio, pixel, 0).rgb;
 #else
   vec2 at = position / vec2(textureSize(u_objects, 0));
   vec4 object = texture(u_objects, at);
