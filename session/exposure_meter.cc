@@ -5,9 +5,9 @@
 namespace pleinair::session {
 namespace {
 
-// Relative standard deviations that no further frame reduces: of the marker's stated reflectance
-// with the light on it, and of the correction for a marker in shade, as a part of its logarithm.
-// Both by made scenes (docs/measurements/light.md#calibration).
+// Relative standard deviations that no further frame reduces. The first is that of the marker's
+// stated reflectance and of the light on it. The second is a part of the logarithm of the
+// correction for a marker in shade. Both by made scenes (docs/measurements/light.md#calibration).
 constexpr double kMarkerError = 0.03, kShadeError = 0.15;
 
 LinearRgb WithDoubt(LinearRgb error, LinearRgb marker_shade) {

@@ -14,7 +14,7 @@ namespace pleinair::shadows {
 struct ChangingCaster {
   TriangleSpan triangles;
   glm::dmat4 texel_from_model{1.0};  ///< As DepthRaster's.
-  std::uint64_t revision = 0;        ///< Of the positions.
+  std::uint64_t revision = 0;        ///< Number of the positions' last change.
 
   bool operator==(const ChangingCaster& other) const {
     return triangles.positions.data() == other.triangles.positions.data() &&

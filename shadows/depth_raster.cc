@@ -11,7 +11,7 @@
 namespace pleinair::shadows {
 namespace {
 
-constexpr std::int32_t kSteps = 256;  // Of a texel.
+constexpr std::int32_t kSteps = 256;  // In a texel.
 // Corners beyond the map by more than this are moved there: their products must fit into 64 bits.
 constexpr float kFarOff = 1e6F;
 constexpr std::size_t kCornersPerBlock = 8192;

@@ -27,8 +27,8 @@ struct TriangleSpan {
   std::span<const std::uint32_t> indices;
 };
 
-/// Draws depths of triangles on the processor, as OpenGL does with depth clamping: at the centres
-/// of texels, only triangles that run counter-clockwise in the map, the least depth of each texel.
+/// Draws depths of triangles on the processor, as OpenGL does with depth clamping. The least depth
+/// at a texel's centre counts. Only triangles that run counter-clockwise in the map are drawn.
 /// Corners are rounded to 1/256 texel, so that no gap opens between neighbours.
 ///
 /// A software renderer of OpenGL divides triangles into blocks of a screen first. For the small

@@ -347,7 +347,7 @@ void ShadowMaps::DrawDepth(int slice, const LightAxes& axes) {
   glDisable(GL_DEPTH_CLAMP);
 }
 
-/// Of these texels of the map.
+/// Makes the levels of the pyramid anew where they show these texels of the map.
 void ShadowMaps::DrawBounds(int slice, const TexelRect& texels) {
   glDisable(GL_DEPTH_TEST);
   glEnable(GL_SCISSOR_TEST);

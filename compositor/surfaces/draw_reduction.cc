@@ -7,8 +7,8 @@ namespace pleinair::compositor {
 
 namespace {
 
-// Two pixels of the coarse grid (passes/coarse_ratio.h): interpolation beside a fine tile must not
-// read a pixel of the grid that shows what only fine tiles draw.
+// Two pixels of the coarse grid (passes/coarse_ratio.h). Some pixels of the grid show what only
+// fine tiles draw: interpolation beside such a tile must not read them.
 constexpr int kCoarseReach_px = 8;
 // Pixels whose ratio and blur take the software renderer as long as drawing a triangle once more
 // (docs/measurements/performance.md).

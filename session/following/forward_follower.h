@@ -41,7 +41,7 @@ struct ProbesToLight {
 ///
 /// The light of new probes takes long to trace. It is computed elsewhere: ProbesToLight() gives the
 /// probes, AddLights() takes their light. A new reference takes over once its probes have their
-/// light, and only in full sun: an albedo that is learnt under faint sun errs by much under the
+/// light, and only in full sun. An albedo that is learnt under faint sun errs by much under the
 /// full one. The factors go on from where they were.
 ///
 /// While no change is proved, all factors are 1. The first proved change fades in over 0.2 s.

@@ -1,5 +1,4 @@
-// Compares composed models with path-traced ones on a terrace, in sun, shade and under an overcast
-// sky:
+// Compares composed models with path-traced ones on a terrace, in sun, shade and overcast:
 //
 //     object_light_benchmark [--flat] [--up-z] [--sphere LEVEL] [--ring FACES] [--crown LEAVES]
 //       [--leaves LEAVES] [--resolutions] FILE…
@@ -9,10 +8,10 @@
 // have. --resolutions compares rings of 500, 5,000 and 50,000 faces with one another. Without
 // any, it compares the hard shapes of the tests.
 //
-// Each line has the object's pixels; the share with a CIE76 difference above 8; the mean
-// difference; the most connected pixels below half of the true light; the brightness relative to
-// the true one. Then the times: for preparing the geometry of the light, and for the light and a
-// frame together, in seconds.
+// Each line has the object's pixels, the share with a CIE76 difference above 8, and the mean
+// difference. Then the most connected pixels below half of the true light, and the brightness
+// relative to the true one. Last the times in seconds: for preparing the geometry of the light, and
+// for the light and a frame together.
 #include <array>
 #include <chrono>
 #include <cstdio>
