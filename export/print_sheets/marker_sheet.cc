@@ -42,10 +42,14 @@ Result<Sheet> MarkerSheet(int number, double size_mm, PageSize page) {
       {fmt::format("S-G marker {}   version {}   {:g} mm", number, sg::kVersion, size_mm),
        kSizeDefinition, kHowToPrint, kHowToMount}};
   const double quiet_mm = size_mm * sg::kQuiet / sg::kEdge;
-  const Vec2 area{size_mm + 2.0 * quiet_mm, size_mm + 2.0 * quiet_mm};
+  const double side_mm = size_mm + 2.0 * quiet_mm;
+  const SheetLabel label{fmt::format("top    S-G {}    {:g} mm", number, size_mm), side_mm};
+  const Vec2 area{side_mm, side_mm + label.Height_mm()};
   PLEINAIR_RETURN_IF_ERROR(CheckFit(legend, area, page));
   const Vec2 top_left = PlaceArea(area, page);
-  sheet.prints.push_back(PlaceMarkerOnSheet(number, size_mm, top_left + area * 0.5));
+  AddLabel(&sheet, label, top_left);
+  const Vec2 middle = top_left + Vec2{0.5 * side_mm, label.Height_mm() + 0.5 * side_mm};
+  sheet.prints.push_back(PlaceMarkerOnSheet(number, size_mm, middle));
   AddLegend(&sheet, legend, top_left, area, quiet_mm);
   return sheet;
 }
@@ -69,10 +73,15 @@ Result<Sheet> BoardSheet(const Board& board, PageSize page) {
                    sg::kVersion, board.columns, board.rows, board.size_mm, board.gap_mm),
        kSizeDefinition, kHowToPrint, kHowToMount}};
   const double quiet_mm = board.size_mm * sg::kQuiet / sg::kEdge;
-  const Vec2 area{board.Width_mm() + 2.0 * quiet_mm, board.Height_mm() + 2.0 * quiet_mm};
+  const Vec2 markers{board.Width_mm() + 2.0 * quiet_mm, board.Height_mm() + 2.0 * quiet_mm};
+  const SheetLabel label{
+      fmt::format("top    S-G {}    {:g} mm    gap {:g} mm", numbers, board.size_mm, board.gap_mm),
+      markers.x};
+  const Vec2 area{markers.x, markers.y + label.Height_mm()};
   PLEINAIR_RETURN_IF_ERROR(CheckFit(legend, area, page));
   const Vec2 top_left = PlaceArea(area, page);
-  const Vec2 middle = top_left + area * 0.5;
+  AddLabel(&sheet, label, top_left);
+  const Vec2 middle = top_left + Vec2{0.5 * markers.x, label.Height_mm() + 0.5 * markers.y};
   for (int i = 0; i < board.Count(); ++i) {
     const Vec2 centre = board.Centre_mm(i);
     sheet.prints.push_back(

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <utility>
 
 #include <fmt/format.h>
@@ -14,6 +15,8 @@ constexpr double kMargin_mm = 10.0;
 constexpr double kLine_mm = 0.2;
 constexpr double kTextSize_mm = 3.5;
 constexpr double kTextLine_mm = 5.0;
+// The mean letter width of Helvetica is half its size; few lines exceed 0.55.
+constexpr double kLetterWidth = 0.55;
 constexpr double kRuler_mm = 100.0;
 // Below the markers: dimension arrow 6, its label 5, ruler 9, then text.
 constexpr double kDimensionHeight_mm = 11.0;
@@ -73,14 +76,28 @@ double LegendHeight(const SheetLegend& legend) {
          kTextLine_mm * static_cast<double>(legend.lines.size());
 }
 
-/// The mean letter width of Helvetica is half its size; few lines exceed 0.55.
 double WidestLine(const SheetLegend& legend) {
   std::size_t longest = 0;
   for (const std::string& line : legend.lines) longest = std::max(longest, line.size());
-  return 0.55 * kTextSize_mm * static_cast<double>(longest);
+  return kLetterWidth * kTextSize_mm * static_cast<double>(longest);
 }
 
 }  // namespace
+
+double SheetLabel::TextSize_mm() const {
+  constexpr double kLabelText_mm = 3.0;
+  return std::min(
+      kLabelText_mm,
+      width_mm / (kLetterWidth * static_cast<double>(std::max<std::size_t>(1, text.size()))));
+}
+
+double SheetLabel::Height_mm() const { return std::ceil(1.5 * TextSize_mm()); }
+
+void AddLabel(Sheet* sheet, const SheetLabel& label, Vec2 area_top_left) {
+  const double size = label.TextSize_mm();
+  // Descenders take a quarter of the size.
+  sheet->texts.push_back({area_top_left + Vec2{0.0, 1.1 * size}, size, label.text});
+}
 
 PageSize PageNeeded(const SheetLegend& legend, Vec2 area) {
   const double widest = std::max({area.x, kRuler_mm, WidestLine(legend)});

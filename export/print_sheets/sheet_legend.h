@@ -9,8 +9,9 @@
 
 namespace pleinair::exports {
 
-/// Common layout of all pages: markers in the middle, and below them a dimension arrow, a 100 mm
-/// ruler and printing instructions. Crop marks lie outside the white margin.
+/// Common layout of all pages: a label, which stays on a trimmed sheet, above the markers; below
+/// them a dimension arrow, a 100 mm ruler and printing instructions. Crop marks lie outside the
+/// white margin.
 struct SheetLegend {
   std::string what;           ///< "a marker of 140 mm".
   std::string option;         ///< Option that makes it smaller.
@@ -22,14 +23,25 @@ struct SheetLegend {
 inline constexpr const char* kHowToPrint = "Print at 100 % (actual size); check the ruler.";
 inline constexpr const char* kHowToMount = "Leave the white margin on it; mount it flat.";
 
+/// Label between the crop marks, above the white margin: "top" and what the marker is. A trimmed
+/// sheet keeps it, and the white margin stays free. The text shrinks to the width.
+struct SheetLabel {
+  std::string text;
+  double width_mm = 0.0;  ///< Of the markers' area.
+  double TextSize_mm() const;
+  double Height_mm() const;
+};
+
 /// The page size for an area (markers with their white margin) and its legend.
 PageSize PageNeeded(const SheetLegend& legend, Vec2 area_mm);
 
 /// Error (input): it does not fit; the error names a page that does.
 Result<void> CheckFit(const SheetLegend& legend, Vec2 area_mm, PageSize page);
 
-/// Top-left corner of the markers' area, on whole millimetres.
+/// Top-left corner of the markers' area and its label, on whole millimetres.
 Vec2 PlaceArea(Vec2 area_mm, PageSize page);
+
+void AddLabel(Sheet* sheet, const SheetLabel& label, Vec2 area_top_left_mm);
 
 /// `quiet_mm`: width of the white margin within the area.
 void AddLegend(Sheet* sheet, const SheetLegend& legend, Vec2 area_top_left_mm, Vec2 area_mm,

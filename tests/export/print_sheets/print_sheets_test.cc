@@ -26,6 +26,7 @@
 namespace pleinair::exports {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::SizeIs;
@@ -142,7 +143,40 @@ TEST(MarkerSheet, KeepsAllInkOutOfTheWhiteMarginAndOnThePage) {
       EXPECT_LE(to.x, 205.0);
       EXPECT_LE(to.y, 292.0);
     }
-    for (const SheetText& text : sheet->texts) EXPECT_GT(text.baseline_mm.y, end.y + 3.0);
+    // The first text is the label above the margin, where the crop marks are.
+    const SheetText& label = sheet->texts.at(0);
+    EXPECT_LT(label.baseline_mm.y, start.y);
+    for (const SheetText& text : sheet->texts) {
+      if (&text == &label) continue;
+      EXPECT_GT(text.baseline_mm.y, end.y + 3.0);
+    }
+  }
+}
+
+TEST(MarkerSheet, KeepsNumberSizeAndTopBetweenTheCropMarks) {
+  for (const double size_mm : {4.0, 40.0, 140.0}) {
+    const auto sheet = MarkerSheet(17, size_mm, {210, 297});
+    ASSERT_TRUE(sheet) << size_mm;
+    double left = 1e9, right = 0.0, top = 1e9, bottom = 0.0;
+    // Crop marks are the first eight lines; they end 1 mm outside of what they bound.
+    for (int i = 0; i < 8; ++i) {
+      const SheetRectangle& mark = sheet->rectangles.at(i);
+      const Vec2 middle = mark.top_left_mm + mark.size_mm * 0.5;
+      if (mark.size_mm.x > mark.size_mm.y) {
+        top = std::min(top, middle.y);
+        bottom = std::max(bottom, middle.y);
+      } else {
+        left = std::min(left, middle.x);
+        right = std::max(right, middle.x);
+      }
+    }
+    const SheetText& label = sheet->texts.at(0);
+    EXPECT_THAT(label.text, AllOf(HasSubstr("top"), HasSubstr("17"), HasSubstr("mm")));
+    EXPECT_GE(label.baseline_mm.x, left);
+    EXPECT_LE(label.baseline_mm.x + 0.55 * label.size_mm * label.text.size(), right + 0.01);
+    EXPECT_GE(label.baseline_mm.y - label.size_mm, top);
+    EXPECT_LE(label.baseline_mm.y, sheet->prints.at(0).top_left_mm.y);
+    EXPECT_NEAR(bottom - sheet->prints.at(0).top_left_mm.y, 1.2 * size_mm, 1e-9);
   }
 }
 
