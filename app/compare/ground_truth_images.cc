@@ -53,8 +53,8 @@ Result<std::vector<GroundTruthImage>> FindKeyFrames(const fs::path& folder, bool
     const Json json = Json::parse(stream);
     if (!json.contains("key_frames")) return std::vector<GroundTruthImage>();
     return OfKeyFrames(folder, json, glossy);
-  } catch (const Json::exception& problem) {
-    return InputError(scene.string(), std::string("cannot be read: ") + problem.what(),
+  } catch (const Json::exception&) {
+    return InputError(scene.string(), "is no JSON, or its key_frames are not as documented",
                       "correct its key_frames");
   }
 }

@@ -130,8 +130,10 @@ class GltfReader {
     }
     if (from.error) return tl::make_unexpected(*from.error);
     if (ok) return CheckGltfValues(gltf_, where_);
+    // The JSON library's own words name only itself.
     std::string first = error.substr(0, error.find('\n'));
     if (first.empty()) first = "unknown cause";
+    if (first.find("json.exception") != std::string::npos) first = "its JSON text is not whole";
     return GltfError(where_, "is not a valid glTF 2.0 file: " + first.substr(0, 200));
   }
 
