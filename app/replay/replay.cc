@@ -61,6 +61,16 @@ struct PreparedReplay {
   std::optional<session::TrajectoryRequest> trajectory;
 };
 
+/// The encoder refuses rates beyond these, some only at a later frame and without a reason. The
+/// lowest is a frame a day. A rate of zero is unknown.
+Result<void> CheckVideoRate(const ReplayOptions& options, double rate_hz) {
+  constexpr double kMin_hz = 1e-5, kMax_hz = 1e5;
+  if (rate_hz <= 0.0 || (rate_hz >= kMin_hz && rate_hz <= kMax_hz)) return {};
+  return InputError(options.recording.string(),
+                    fmt::format("has {:g} frames a second, which no video can have", rate_hz),
+                    "correct its frame_rate_hz or its time stamps, or use --no-video --frames");
+}
+
 /// Opens the recording and loads its scene and its trajectory. Errors in the request appear before
 /// the long detection pass.
 Result<PreparedReplay> Prepare(ReplayState& state) {
@@ -73,6 +83,9 @@ Result<PreparedReplay> Prepare(ReplayState& state) {
   if (recording.is_photo) {
     state.write.frames = true;
     state.write.video = false;
+  }
+  if (state.write.video) {
+    PLEINAIR_RETURN_IF_ERROR(CheckVideoRate(options, recording.frame_rate_hz));
   }
   if (options.time_lapse) {
     PLEINAIR_ASSIGN_OR_RETURN(state.day_moments,

@@ -75,6 +75,12 @@ INSTANTIATE_TEST_SUITE_P(
                 Replace(site / "recording.json", "\"fx\": 605", "\"fx\": 0");
               },
               "fx"},
+        Fault{"RateThatNoVideoHas",
+              [](const fs::path& site) {
+                Replace(site / "recording.json", "\"frame_rate_hz\": 15",
+                        "\"frame_rate_hz\": 1e-7");
+              },
+              "site: has 1e-07 frames a second, which no video can have"},
         Fault{"MarkerOfSizeZero",
               [](const fs::path& site) {
                 Replace(site / "scene.toml", "\nsize_m = 0.5", "\nsize_m = 0");
