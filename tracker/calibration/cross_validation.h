@@ -9,9 +9,15 @@ namespace pleinair::tracker {
 /// Prediction error of a calibration on views that were not used to fit it.
 struct CrossValidation {
   int folds = 0;
-  double rms_px = 0.0;           ///< RMS error over held-out views, with poses fitted to them.
-  std::vector<double> focal_px;  ///< Mean of fx and fy, per fold.
+  double rms_px = 0.0;              ///< RMS error over held-out views, with poses fitted to them.
+  std::vector<double> focal_px;     ///< Mean of fx and fy, per fold.
+  std::vector<double> squares_px2;  ///< Sum of squared errors of each view, in the order of views.
 };
+
+/// Whether one model predicts views better than another beyond chance: the mean difference of the
+/// views' squared errors exceeds two standard errors (Hastie, Tibshirani, Friedman, *The Elements
+/// of Statistical Learning*, 2nd ed., 7.10, with paired differences). Both are of the same views.
+bool PredictsBetter(const CrossValidation& model, const CrossValidation& other);
 
 /// K-fold cross-validation: fits the lens `folds` times, each time without every folds-th view, and
 /// measures the held-out views. Their poses are fitted, the lens is not. There are at most as many

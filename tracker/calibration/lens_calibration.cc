@@ -12,7 +12,7 @@ constexpr double kHuberShare = 0.0015;
 /// Corners in photographs are never more accurate than this, so no lower uncertainty is reported.
 constexpr double kMinNoise_px = 0.03;
 /// A model with fewer parameters is kept unless the cross-validation error of another is lower by
-/// this factor.
+/// this factor, and lower beyond chance.
 constexpr double kWorthwhile = 1.01;
 constexpr const char* kRemedy =
     "take 10 to 20 images of the whole board: near and far, tilted in several directions, in every "
@@ -141,7 +141,6 @@ class Calibrator {
   Result<void> Choose(const LensFit& clean) {
     std::vector<LensFit> fits;
     std::vector<CrossValidation> validations;
-    double best = std::numeric_limits<double>::infinity();
     Error last{};
     for (const LensKind kind : kinds_) {
       PLEINAIR_RETURN_IF_ERROR(Step());
@@ -153,13 +152,16 @@ class Calibrator {
         continue;
       }
       calibration_.tried.push_back({kind, RmsOf(*fit), validation->rms_px});
-      best = std::min(best, validation->rms_px);
       fits.push_back(*std::move(fit));
       validations.push_back(*std::move(validation));
     }
     if (fits.empty()) return tl::make_unexpected(std::move(last));
+    const auto least = std::ranges::min_element(validations, {}, &CrossValidation::rms_px);
     for (std::size_t i = 0; i < fits.size(); ++i) {
-      if (!(validations[i].rms_px <= kWorthwhile * best)) continue;
+      if (validations[i].rms_px > kWorthwhile * least->rms_px &&
+          PredictsBetter(*least, validations[i])) {
+        continue;
+      }
       calibration_.fit = std::move(fits[i]);
       calibration_.validation = std::move(validations[i]);
       return {};

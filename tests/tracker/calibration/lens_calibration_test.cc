@@ -317,6 +317,30 @@ TEST(LensCalibration, KnowsAFisheyeFromOtherLenses) {
   EXPECT_LT(MapApart_px(fisheye, found->fit.camera), 0.3);
 }
 
+// With few corners a view, models differ by chance by more than a hundredth.
+TEST(LensCalibration, TakesNoOrdinaryLensForAFisheye) {
+  const CameraModel camera = TrueCamera();
+  int others = 0;
+  for (unsigned seed = 1; seed <= 12; ++seed) {
+    std::vector<PlaneView> views = DrawnViews(camera, BoardPoses(camera, 0.3, 40.0), 0.0);
+    std::mt19937 random(seed);
+    std::normal_distribution<double> noise(0.0, 0.4);
+    for (PlaneView& view : views) {
+      PlaneView few{view.name, {}, {}};
+      for (std::size_t i = 0; i < view.observed_px.size(); i += 7) {
+        few.on_board_m.push_back(view.on_board_m[i]);
+        few.observed_px.push_back(view.observed_px[i] + Vec2{noise(random), noise(random)});
+      }
+      view = few;
+    }
+    const auto found = CalibrateLens(views, camera.width, camera.height);
+    if (!found) continue;
+    ++others;
+    EXPECT_NE(found->fit.kind, LensKind::kEquidistant) << seed;
+  }
+  EXPECT_GT(others, 6);
+}
+
 TEST(LensDerivatives, AgreeWithDifferences) {
   for (const bool wide : {false, true}) {
     CameraModel camera = TrueCamera();
