@@ -111,14 +111,11 @@ double ForwardFilter::Cost(const Explained& explained, double noise_scale) {
   return cost;
 }
 
-double ForwardFilter::ProbabilityOfCase(const Probe& probe, std::size_t which,
-                                        const Reading& reading, const LogLight& factors,
-                                        double noise_scale) const {
-  if (!probe.may_be_shaded) return which == 0 ? 1.0 : 0.0;
-  const double sunlit = Cost(Explain(probe, probe.cases[0], reading, factors), noise_scale);
-  const double shaded = Cost(Explain(probe, probe.cases[1], reading, factors), noise_scale);
-  const double of_shade = 1.0 / (1.0 + std::exp(shaded - sunlit - probe.log_odds_shade));
-  return which == 1 ? of_shade : 1.0 - of_shade;
+std::array<double, 2> ForwardFilter::ProbabilitiesOf(const Probe& probe,
+                                                     const std::array<double, 2>& costs) {
+  if (!probe.may_be_shaded) return {1.0, 0.0};
+  const double of_shade = 1.0 / (1.0 + std::exp(costs[1] - costs[0] - probe.log_odds_shade));
+  return {1.0 - of_shade, of_shade};
 }
 
 ForwardFilter::Equations ForwardFilter::AddUp(const std::vector<Reading>& readings,
@@ -130,10 +127,18 @@ ForwardFilter::Equations ForwardFilter::AddUp(const std::vector<Reading>& readin
   double weights = 0.0, share_squares = kDarkest;
   for (const Reading& reading : readings) {
     const Probe& probe = probes_[reading.probe];
-    for (std::size_t k = 0; k < (probe.may_be_shaded ? 2U : 1U); ++k) {
-      const double probability = ProbabilityOfCase(probe, k, reading, factors, noise_scale);
-      const Explained explained = Explain(probe, probe.cases[k], reading, factors);
-      sum.cost += probability * independent * Cost(explained, noise_scale);
+    std::array<Explained, 2> by_case;
+    std::array<double, 2> costs{};
+    const std::size_t count = probe.may_be_shaded ? 2 : 1;
+    for (std::size_t k = 0; k < count; ++k) {
+      by_case[k] = Explain(probe, probe.cases[k], reading, factors);
+      costs[k] = Cost(by_case[k], noise_scale);
+    }
+    const std::array<double, 2> probabilities = ProbabilitiesOf(probe, costs);
+    for (std::size_t k = 0; k < count; ++k) {
+      const double probability = probabilities[k];
+      const Explained& explained = by_case[k];
+      sum.cost += probability * independent * costs[k];
       for (int c = 0; c < 3; ++c) {
         const double variance = Square(noise_scale) * explained.variance[c];
         const double weight = probability * independent / variance *

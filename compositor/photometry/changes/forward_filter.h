@@ -83,9 +83,9 @@ class ForwardFilter {
   Explained Explain(const Probe& probe, const Case& as, const Reading& reading,
                     const LogLight& factors) const;
   static double Cost(const Explained& explained, double noise_scale);
-  /// Probability that the phantoms light the probe, by its odds and this reading.
-  double ProbabilityOfCase(const Probe& probe, std::size_t which, const Reading& reading,
-                           const LogLight& factors, double noise_scale) const;
+  /// Probabilities of the probe's cases, by its odds and their costs for a reading.
+  static std::array<double, 2> ProbabilitiesOf(const Probe& probe,
+                                               const std::array<double, 2>& costs);
   Equations AddUp(const std::vector<Reading>& readings, const LogLight& light,
                   double noise_scale) const;
   /// Lights with which a frame's fit begins: that of the frame before, and one with another sun. A
