@@ -9,8 +9,8 @@
 
 namespace pleinair::exports {
 
-/// Common layout of all pages: a label, which stays on a trimmed sheet, above the markers; below
-/// them a dimension arrow, a 100 mm ruler and printing instructions. Crop marks lie outside the
+/// Common layout of all pages. Above the markers is a label, which stays on a trimmed sheet. Below
+/// them are a dimension arrow, a 100 mm ruler and printing instructions. Crop marks lie outside the
 /// white margin.
 struct SheetLegend {
   std::string what;           ///< "a marker of 140 mm".
@@ -27,7 +27,7 @@ inline constexpr const char* kHowToMount = "Leave the white margin on it; mount 
 /// sheet keeps it, and the white margin stays free. The text shrinks to the width.
 struct SheetLabel {
   std::string text;
-  double width_mm = 0.0;  ///< Of the markers' area.
+  double width_mm = 0.0;  ///< Width of the markers' area.
   double TextSize_mm() const;
   double Height_mm() const;
 };

@@ -18,7 +18,7 @@ bool PredictsBetter(const CrossValidation& model, const CrossValidation& other) 
     sum += better;
     squares += better * better;
   }
-  const double variance = squares - sum * sum / views;  // Of all differences together.
+  const double variance = squares - sum * sum / views;  // Sum over all differences.
   return sum > kStandardErrors * std::sqrt(std::max(0.0, variance * views / (views - 1.0)));
 }
 

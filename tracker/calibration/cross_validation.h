@@ -14,9 +14,10 @@ struct CrossValidation {
   std::vector<double> squares_px2;  ///< Sum of squared errors of each view, in the order of views.
 };
 
-/// Whether one model predicts views better than another beyond chance: the mean difference of the
-/// views' squared errors exceeds two standard errors (Hastie, Tibshirani, Friedman, *The Elements
-/// of Statistical Learning*, 2nd ed., 7.10, with paired differences). Both are of the same views.
+/// Whether one model predicts views better than another beyond chance. It does if the mean
+/// difference of the views' squared errors exceeds two standard errors. Both are of the same views.
+/// Source: Hastie, Tibshirani, Friedman, *The Elements of Statistical Learning*, 2nd ed., 7.10,
+/// with paired differences.
 bool PredictsBetter(const CrossValidation& model, const CrossValidation& other);
 
 /// K-fold cross-validation: fits the lens `folds` times, each time without every folds-th view, and
