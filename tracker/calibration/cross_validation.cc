@@ -14,7 +14,7 @@ bool PredictsBetter(const CrossValidation& model, const CrossValidation& other) 
   const auto views = static_cast<double>(model.squares_px2.size());
   double sum = 0.0, squares = 0.0;
   for (std::size_t i = 0; i < model.squares_px2.size(); ++i) {
-    const double better = other.squares_px2[i] - model.squares_px2[i];
+    const double better = std::log(other.squares_px2[i] / model.squares_px2[i]);
     sum += better;
     squares += better * better;
   }

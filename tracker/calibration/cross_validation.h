@@ -15,9 +15,9 @@ struct CrossValidation {
 };
 
 /// Whether one model predicts views better than another beyond chance. It does if the mean
-/// difference of the views' squared errors exceeds two standard errors. Both are of the same views.
-/// Source: Hastie, Tibshirani, Friedman, *The Elements of Statistical Learning*, 2nd ed., 7.10,
-/// with paired differences.
+/// logarithm of the ratio of a view's squared errors exceeds two standard errors. Views that fit
+/// badly thus do not outweigh the others. Both are of the same views. Source: Hastie, Tibshirani,
+/// Friedman, *The Elements of Statistical Learning*, 2nd ed., 7.10, with paired ratios.
 bool PredictsBetter(const CrossValidation& model, const CrossValidation& other);
 
 /// K-fold cross-validation: fits the lens `folds` times, each time without every folds-th view, and
