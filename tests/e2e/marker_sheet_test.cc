@@ -182,8 +182,8 @@ TEST(Board, StandsOnThePageWhereItsDescriptionSays) {
   const double right_mm = corners[1][0].get<double>() * 1e3;
   EXPECT_DOUBLE_EQ(left_mm, 5.0);
   EXPECT_DOUBLE_EQ(right_mm, 40.0);
-  // Both top markers' rims cross this row: 10 mm from the page's top, then the white margin.
-  const int rim_y = static_cast<int>((10.0 + 3.5 + 1.5) * kPixelsPerMm);
+  // Both top markers' rims cross this row: 10 mm from the page's top, 5 mm of label, the margin.
+  const int rim_y = static_cast<int>((10.0 + 5.0 + 3.5 + 1.5) * kPixelsPerMm);
   EXPECT_NEAR(BlackAlong(page.row(rim_y)), 70.0, 0.1);
   std::vector<int> edges;
   for (int x = 1; x < page.cols; ++x) {
