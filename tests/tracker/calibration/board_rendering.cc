@@ -12,6 +12,18 @@ constexpr double kDegree = kRadiansPerDegree;
 
 }  // namespace
 
+CameraModel BoardCamera() {
+  CameraModel camera;
+  camera.width = 640;
+  camera.height = 480;
+  camera.fx = 585.0;
+  camera.fy = 588.5;
+  camera.cx = 326.3;
+  camera.cy = 235.8;
+  camera.distortion = {-0.13, 0.045, 0.0006, -0.0004, 0.01};
+  return camera;
+}
+
 std::shared_ptr<const MarkerPattern> BoardPattern(const CalibrationBoard& board, bool legacy) {
   const bool charuco = board.kind == BoardKind::kCharuco;
   const int columns = board.columns + (charuco ? 0 : 1), rows = board.rows + (charuco ? 0 : 1);

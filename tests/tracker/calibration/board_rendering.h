@@ -8,6 +8,9 @@
 
 namespace pleinair::tracker {
 
+/// A camera of 640×480 pixels with the distortion of an ordinary lens.
+CameraModel BoardCamera();
+
 /// A chessboard or ChArUco board as a marker pattern. Its `edge_modules` are one square; its centre
 /// is the board's. `legacy`: the layout of OpenCV versions before 4.6.
 std::shared_ptr<const MarkerPattern> BoardPattern(const CalibrationBoard& board,
