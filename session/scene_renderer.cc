@@ -345,8 +345,9 @@ Result<void> SceneRenderer::Follow(ImageView<const std::uint8_t> rgb,
   if (!composer_) return {};
   auto start = Clock::now();
   PLEINAIR_RETURN_IF_ERROR(UpdateLight(time.PlusSeconds(edited_.later_s)));
-  PLEINAIR_RETURN_IF_ERROR(FadeLight(time));
   PLEINAIR_RETURN_IF_ERROR(composer_->SetLightMix(light_->in_use()->meshes, followed.mix));
+  // Last: it draws other meshes, with the same mix.
+  PLEINAIR_RETURN_IF_ERROR(FadeLight(time));
   times_.light_ms = MillisecondsSince(start);
   start = Clock::now();
   // At the time of the frame, whatever hour an edit lights the scene with.
