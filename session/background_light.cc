@@ -213,6 +213,7 @@ void BackgroundLight::Make(const Wanted& wanted,
                            std::shared_ptr<const compositor::LightSolver> solver) {
   auto light = std::make_shared<BakedLighting>(LightingRequestFor(wanted, std::move(solver)));
   light->objects = placed_.objects;
+  light->phantoms = placed_.phantoms;
   made_.wanted = wanted;
   made_.sun = light->sun;
   const std::lock_guard lock(mutex_);

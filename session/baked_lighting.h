@@ -48,7 +48,8 @@ struct BakedLighting {
   std::vector<compositor::LitMesh> meshes;
   LinearRgb from_below;                               ///< LightSolver::RadianceFromBelow().
   std::optional<compositor::MarkerLightMeter> meter;  ///< Empty where the request has no marker.
-  std::vector<ObjectPlace> objects;  ///< Positions of the objects; empty: as described.
+  std::vector<ObjectPlace> objects;    ///< Positions of the objects; empty: as described.
+  std::vector<SurfacePlace> phantoms;  ///< Positions of the phantoms; empty: as described.
 };
 
 /// True if the sun is still near the position of the baked indirect illumination, so that this need

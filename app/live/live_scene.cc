@@ -13,8 +13,7 @@ bool HaveSameRatio(const session::LightingRequest& a, const session::LightingReq
 
 /// True if a light shines on the same surfaces from the same sun and sky, whatever the rays.
 bool AreAlike(const session::BakedLighting& a, const session::BakedLighting& b) {
-  return &a.request.solver->phantoms() == &b.request.solver->phantoms() &&
-         HaveSameRatio(a.request, b.request) &&
+  return a.phantoms == b.phantoms && HaveSameRatio(a.request, b.request) &&
          a.request.marker.heading.value() == b.request.marker.heading.value() &&
          session::IsNearSun(a.sun, b.sun);
 }
@@ -52,7 +51,8 @@ Result<void> LiveScene::Take(std::shared_ptr<const session::BakedLighting> light
     changes_->Use({{solver, &solver->phantoms()},
                    {light, &light->daylight},
                    light->marker_from_world,
-                   followed_ && !HaveSameRatio(followed_->request, light->request)});
+                   followed_ && !HaveSameRatio(followed_->request, light->request),
+                   followed_ && followed_->phantoms != light->phantoms});
     followed_ = light;
   }
   return renderer->UseLight(std::move(light));

@@ -53,7 +53,10 @@ struct ForwardFollower::Stage {
 void ForwardFollower::Deleter::operator()(Stage* stage) const { delete stage; }
 
 void ForwardFollower::Use(LightReference reference) {
-  if (next_) reference.is_new_ratio |= next_->reference.is_new_ratio;
+  if (next_) {
+    reference.is_new_ratio |= next_->reference.is_new_ratio;
+    reference.has_moved_phantoms |= next_->reference.has_moved_phantoms;
+  }
   next_.reset(new Stage(std::move(reference), ++references_, camera_, response_));
 }
 
@@ -85,7 +88,7 @@ void ForwardFollower::Add(ImageView<const std::uint8_t> rgb, const Transform<Cam
   };
   if (next_ && next_->probes.probes().empty()) probe(next_.get());
   if (next_ && next_->AllLit() &&
-      (!current_ || IsInFullSun() || next_->reference.phantoms != current_->reference.phantoms)) {
+      (!current_ || IsInFullSun() || next_->reference.has_moved_phantoms)) {
     StartNext();
   }
   if (!current_) return;
@@ -146,6 +149,8 @@ FollowedLight ForwardFollower::Newest() const {
   light.exposure = light.marker_light / current_->on_marker.Factor(light.mix.sun, one);
   return light;
 }
+
+std::int64_t ForwardFollower::reference() const { return current_ ? current_->number : 0; }
 
 bool ForwardFollower::IsInFullSun() const {
   return newest_.LogRatio() >= full_sun_.largest - kFullSunReach - newest_.log_ratio_error;

@@ -26,8 +26,11 @@ struct LightReference {
   std::shared_ptr<const compositor::PhantomRays> phantoms;
   std::shared_ptr<const sky::SkyModel> day;
   Mat3 marker_from_world;
-  /// True if sun over sky is another than that of the reference before: a new estimate or an edit.
+  /// True if its sun-to-sky ratio differs from that of the previous reference, after a new estimate
+  /// or an edit.
   bool is_new_ratio = false;
+  /// True if phantoms were moved since the previous reference, whose albedos no longer fit.
+  bool has_moved_phantoms = false;
 };
 
 /// Probes whose light a session has to trace.
@@ -39,12 +42,13 @@ struct ProbesToLight {
 
 /// Follows sun and sky through a live session, frame by frame (compositor::ForwardLight).
 ///
-/// The light of new probes takes long to trace. It is computed elsewhere: ProbesToLight() gives the
-/// probes, AddLights() takes their light. A new reference takes over once its probes have their
-/// light, and only in full sun. An albedo that is learnt under faint sun errs by much under the
-/// full one. The factors go on from where they were.
+/// Tracing the light of new probes is slow (about 1 ms each), so the caller does it on another
+/// thread: ProbesWithoutLight() returns the probes, AddLights() takes their light. A new reference
+/// comes into use when its probes have their light, and only in full sun: albedos estimated under
+/// faint sun have large errors. With other phantoms it does not wait for full sun. The factors
+/// continue.
 ///
-/// While no change is proved, all factors are 1. The first proved change fades in over 0.2 s.
+/// Until a change is detected, all factors are 1. The first change fades in over 0.2 s.
 class ForwardFollower {
  public:
   ForwardFollower(const CameraModel& camera, const CameraResponse& response)
@@ -68,9 +72,13 @@ class ForwardFollower {
   /// How the last frame's light differs from the reference.
   FollowedLight Newest() const;
 
-  /// True if sun over sky is nearly as large as it was lately. In such frames the light of the
-  /// reference may be estimated anew.
+  /// True if the last frame's log sun-to-sky ratio is at most 0.1, plus its standard deviation,
+  /// below its recent maximum (docs/method/photometry.md#live-changes). Only such frames may serve
+  /// a new estimate.
   bool IsInFullSun() const;
+
+  /// Number of the reference of the last frame, in the order of Use(); 0 before the first.
+  std::int64_t reference() const;
 
  private:
   /// A reference with its probes.

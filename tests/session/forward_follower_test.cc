@@ -183,9 +183,26 @@ TEST(ForwardFollower, GoesOnWithANewReferenceAfterTheCloud) {
     if (frame == 4) follower->Use(Reference());
     if (frame > 4 && frame < 8) {
       EXPECT_FALSE(follower->IsInFullSun()) << frame;
+      EXPECT_EQ(follower->reference(), 1) << frame;
+    }
+    if (frame == kYardFrames - 1) {
+      EXPECT_EQ(follower->reference(), 2);
     }
   };
   ExpectFollowed(Follow(UnderACloud, move_sun), UnderACloud);
+}
+
+TEST(ForwardFollower, TakesMovedPhantomsAtOnce) {
+  const auto move_phantoms = [](int frame, ForwardFollower* follower) {
+    LightReference reference = Reference();
+    reference.has_moved_phantoms = true;
+    if (frame == 4) follower->Use(reference);
+    if (frame == 7) {
+      EXPECT_FALSE(follower->IsInFullSun());
+      EXPECT_EQ(follower->reference(), 2);
+    }
+  };
+  Follow(UnderACloud, move_phantoms);
 }
 
 TEST(ForwardFollower, RefersToANewEstimateOfSunOverSky) {
