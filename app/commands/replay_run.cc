@@ -11,7 +11,6 @@
 #include <new>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <vector>
 
 #include "app/options/picture_size.h"
@@ -26,25 +25,6 @@
 
 namespace pleinair::app {
 namespace {
-
-/// What a replay reads: the recording with its folder, the files that the options name, and what
-/// lies beside the scene.
-std::vector<std::filesystem::path> InputsOf(const ReplayOptions& options) {
-  std::vector<std::filesystem::path> inputs{options.recording, options.trajectory.file,
-                                            options.trajectory.points,
-                                            options.trajectory.extrinsics};
-  if (options.calibration) inputs.push_back(*options.calibration);
-  if (options.scene) {
-    std::error_code error;
-    const std::filesystem::path folder =
-        std::filesystem::absolute(*options.scene, error).parent_path();
-    for (std::filesystem::directory_iterator it(folder, error), end; !error && it != end;
-         it.increment(error)) {
-      if (it->is_regular_file(error)) inputs.push_back(it->path());
-    }
-  }
-  return inputs;
-}
 
 /// Quotes a word for a shell.
 std::string Quoted(const std::string& word) {
@@ -181,7 +161,7 @@ Result<void> Run(ReplayArguments& arguments) {
   options.write.is_resumable = arguments.written.resume;
   options.command = CommandText(arguments);
   if (arguments.written.resume &&
-      IsFinishedReplay(options.output, options.command, InputsOf(options))) {
+      IsFinishedReplay(options.output, options.command, FilesReadBy(options))) {
     std::cerr << OneLine(arguments.paths.output)
               << " is finished already; without --resume it is composed anew\n";
     return {};

@@ -117,15 +117,15 @@ bool AssumesGround(const scene::SceneDescription& scene) {
 }
 
 /// The files on which a replay depends, without the single frames of a recording and textures.
-std::vector<fs::path> InputsOf(const devices::Recording& recording, const ReplayState& state) {
-  const ReplayOptions& options = state.options;
+std::vector<fs::path> InputsOf(const devices::Recording& recording, const ReplayOptions& options,
+                               const fs::path& staging) {
   std::vector<fs::path> files{options.recording};
   for (const char* name : {"recording.json", "scene.json", "scene.toml"}) {
     files.push_back(options.recording / name);
   }
   if (options.scene) files.push_back(*options.scene);
   // A calibration from the film itself is staged, and new each time.
-  if (options.calibration && options.calibration->parent_path() != state.folder.staging()) {
+  if (options.calibration && options.calibration->parent_path() != staging) {
     files.push_back(*options.calibration);
   }
   for (const auto* trajectory :
@@ -204,8 +204,9 @@ Result<void> Run(ReplayState& state) {
   PLEINAIR_ASSIGN_OR_RETURN(PreparedReplay prepared, Prepare(state));
   const std::string& name = state.report.call.recording;
   if (state.write.is_resumable) {
-    PLEINAIR_RETURN_IF_ERROR(ClaimUnfinished(state.folder.staging(), state.options.command,
-                                             InputsOf(prepared.recording, state)));
+    PLEINAIR_RETURN_IF_ERROR(
+        ClaimUnfinished(state.folder.staging(), state.options.command,
+                        InputsOf(prepared.recording, state.options, state.folder.staging())));
   }
   const auto damage = prepared.recording.damage;
   PLEINAIR_RETURN_IF_ERROR(FindMarkers(state, std::move(prepared.recording)));
@@ -241,6 +242,15 @@ Result<void> CheckOutputIsApart(const ReplayOptions& options) {
 }
 
 }  // namespace
+
+std::vector<fs::path> FilesReadBy(const ReplayOptions& options) {
+  const auto recording =
+      devices::OpenRecording(options.recording, {options.calibration, options.scene});
+  if (recording && recording->scene) return InputsOf(*recording, options, {});
+  std::vector<fs::path> files{options.recording};
+  if (options.scene) files.push_back(*options.scene);
+  return files;
+}
 
 Result<ReplayReport> Replay(const ReplayOptions& options) {
   PLEINAIR_RETURN_IF_ERROR(CheckOutputIsApart(options));

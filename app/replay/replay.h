@@ -1,5 +1,8 @@
 #pragma once
 
+#include <filesystem>
+#include <vector>
+
 #include "app/replay/replay_options.h"
 #include "app/replay/report/report.h"
 #include "base/error.h"
@@ -12,5 +15,9 @@ namespace pleinair::app {
 /// with about twelve frames in memory. The result does not depend on the number of processors. All
 /// outputs appear at the end; after an error there are none.
 Result<ReplayReport> Replay(const ReplayOptions& options);
+
+/// The files and folders that such a replay reads, models and their materials included, textures
+/// not. Of a recording that cannot be opened, or has no scene, only those that the options name.
+std::vector<std::filesystem::path> FilesReadBy(const ReplayOptions& options);
 
 }  // namespace pleinair::app
