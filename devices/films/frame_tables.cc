@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/big_endian.h"
+
 namespace pleinair::devices {
 namespace {
 
@@ -18,10 +20,7 @@ constexpr std::uint64_t kMaxHeader = std::uint64_t{64} << 20;
 constexpr std::size_t kBoxHead = 8, kFullBoxHead = 4, kCount = 4;
 
 std::uint64_t NumberAt(std::string_view bytes, std::size_t at, std::size_t count) {
-  if (at + count > bytes.size()) return 0;
-  std::uint64_t number = 0;
-  for (const char c : bytes.substr(at, count)) number = number << 8 | static_cast<std::uint8_t>(c);
-  return number;
+  return at + count > bytes.size() ? 0 : BigEndian(bytes.substr(at, count));
 }
 
 /// The contents of all boxes of a type directly within `content`.
@@ -67,7 +66,8 @@ std::optional<std::uint64_t> FramesInChunks(std::string_view stsc, std::uint64_t
   for (std::uint64_t row = 0; row < rows; ++row) {
     const std::size_t at = kFirst + row * kRow;
     const std::uint64_t first = NumberAt(stsc, at, 4);
-    const std::uint64_t end = row + 1 < rows ? NumberAt(stsc, at + kRow, 4) : chunks + 1;
+    const std::uint64_t next = row + 1 < rows ? NumberAt(stsc, at + kRow, 4) : chunks + 1;
+    const std::uint64_t end = std::min(next, chunks + 1);  // A row may stand for no chunk.
     if (end > first) frames += (end - first) * NumberAt(stsc, at + 4, 4);
   }
   return frames;

@@ -10,19 +10,13 @@
 #include <string_view>
 #include <system_error>
 
+#include "base/big_endian.h"
 #include "base/little_endian.h"
 
 namespace pleinair::devices {
 namespace {
 
 constexpr int kMaxBoxes = 100'000;
-
-// Big-endian number of `count` bytes.
-std::uint64_t BigEndian(std::string_view bytes) {
-  std::uint64_t number = 0;
-  for (const char c : bytes) number = number << 8 | static_cast<std::uint8_t>(c);
-  return number;
-}
 
 tl::unexpected<Error> CutShort(const std::filesystem::path& file, std::uint64_t bytes,
                                std::uint64_t promised) {
