@@ -23,30 +23,6 @@ constexpr std::size_t kMaxFaces = std::size_t{1} << 26;
 
 Vec3 ToVec3(const std::array<float, 3>& a) { return {a[0], a[1], a[2]}; }
 
-/// Mean color of a surface by its vertices, weighted by the area of their triangles; white without
-/// colors.
-std::array<float, 3> MeanVertexColor(const SurfaceMesh& surface) {
-  if (surface.details.empty()) return {1.0F, 1.0F, 1.0F};
-  std::array<double, 3> sum{};
-  double area = 0.0;
-  for (std::size_t i = 0; i + 2 < surface.indices.size(); i += 3) {
-    const std::uint32_t* corners = &surface.indices[i];
-    const Vec3 first = ToVec3(surface.positions[corners[0]]);
-    // Twice the triangle's area, over three corners.
-    const double weight = Norm(Cross(ToVec3(surface.positions[corners[1]]) - first,
-                                     ToVec3(surface.positions[corners[2]]) - first)) /
-                          3.0;
-    for (int k = 0; k < 3; ++k) {
-      for (int c = 0; c < 3; ++c) sum[c] += weight * surface.details[corners[k]].color[c];
-    }
-    area += 3.0 * weight;
-  }
-  if (!(area > 0.0)) return {1.0F, 1.0F, 1.0F};
-  std::array<float, 3> mean{};
-  for (int c = 0; c < 3; ++c) mean[c] = static_cast<float>(sum[c] / area);
-  return mean;
-}
-
 Result<void> CheckModel(const PlacedModel& placed) {
   if (placed.model == nullptr) return InputError("scene", "a placed model is missing");
   const std::string file = placed.model->file.string();

@@ -6,10 +6,13 @@
 
 #include "base/image.h"
 #include "base/srgb.h"
+#include "base/vector.h"
 #include "compositor/models/leaf_material.h"
 
 namespace pleinair::compositor {
 namespace {
+
+Vec3 WideCorner(const std::array<float, 3>& a) { return {a[0], a[1], a[2]}; }
 
 /// Coverage of a surface where its texture has this alpha.
 double ShareThere(std::uint8_t alpha, const Material& material) {
@@ -87,6 +90,28 @@ std::array<float, 3> TransmittanceOf(const PlacedModel& placed, int material_ind
     transmittance[c] = std::clamp(inside * transmittance[c], 0.0F, 0.98F - albedo[c]);
   }
   return transmittance;
+}
+
+std::array<float, 3> MeanVertexColor(const SurfaceMesh& surface) {
+  if (surface.details.empty()) return {1.0F, 1.0F, 1.0F};
+  std::array<double, 3> sum{};
+  double area = 0.0;
+  for (std::size_t i = 0; i + 2 < surface.indices.size(); i += 3) {
+    const std::uint32_t* corners = &surface.indices[i];
+    const Vec3 first = WideCorner(surface.positions[corners[0]]);
+    // Twice the triangle's area, over three corners.
+    const double weight = Norm(Cross(WideCorner(surface.positions[corners[1]]) - first,
+                                     WideCorner(surface.positions[corners[2]]) - first)) /
+                          3.0;
+    for (int k = 0; k < 3; ++k) {
+      for (int c = 0; c < 3; ++c) sum[c] += weight * surface.details[corners[k]].color[c];
+    }
+    area += 3.0 * weight;
+  }
+  if (!(area > 0.0)) return {1.0F, 1.0F, 1.0F};
+  std::array<float, 3> mean{};
+  for (int c = 0; c < 3; ++c) mean[c] = static_cast<float>(sum[c] / area);
+  return mean;
 }
 
 }  // namespace pleinair::compositor

@@ -34,6 +34,12 @@ void SetDetail(const MaterialDetail& detail, bool is_back, const gl::GlProgram& 
                  program);
 }
 
+/// True without colors of vertices, too.
+bool HasOneColor(const std::vector<VertexDetail>& details) {
+  return std::ranges::all_of(
+      details, [&](const VertexDetail& detail) { return detail.color == details[0].color; });
+}
+
 }  // namespace
 
 Result<SceneSurfaces> SceneSurfaces::Create(const std::vector<PlacedModel>& scene) {
@@ -89,7 +95,8 @@ Result<void> SceneSurfaces::SetSurfaces(const std::vector<LitMesh>& lit) {
     }
     if (mesh.is_phantom) {
       const Material& material = MaterialOf(surfaces_.back());
-      const bool even = material.base_color_texture < 0 && material.metallic == 0.0F;
+      const bool even = material.base_color_texture < 0 && material.metallic == 0.0F &&
+                        HasOneColor(mesh.texturing.details);
       green_albedos.push_back(even ? mesh.texturing.reflectance[1] : 0.0F);
       reduction_.AddPhantom(mesh);
       phantoms.push_back(&mesh);

@@ -67,6 +67,8 @@ ChangingMesh::ChangingMesh(const PlacedModel& placed, int placed_model)
     Source& source = sources_.emplace_back();
     source.mesh = from.mesh;
     source.reflectance = ReflectanceOf(*placed.model, from.surface.material);
+    const std::array<float, 3> mean_color = MeanVertexColor(from.surface);
+    for (std::size_t c = 0; c < 3; ++c) source.reflectance[c] *= mean_color[c];
     source.vertices = std::move(from.vertices);
     const auto& normals = placed.model->meshes[from.mesh].normals;
     for (std::size_t i = 0; i < source.vertices.size(); ++i) {
