@@ -62,7 +62,11 @@ DepthRaster::DepthRaster(const TriangleSpan& triangles, const glm::dmat4& texel_
 void DepthRaster::Draw(Image<float>* depths) const {
   if (bounds_.Empty()) return;
   // Bands of rows: every texel belongs to one.
-  const auto bands = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 4U));
+  // Bands with few triangles would take less time than their threads.
+  constexpr std::size_t kTrianglesPerBand = 5000;
+  const auto processors = std::clamp(std::thread::hardware_concurrency(), 1U, 4U);
+  const auto bands = static_cast<int>(
+      std::clamp<std::size_t>(indices_.size() / (3 * kTrianglesPerBand), 1, processors));
   ParallelFor(static_cast<std::size_t>(bands), 0, [&](std::size_t band) {
     const auto i = static_cast<int>(band);
     DrawRows(bounds_.y0 + bounds_.height() * i / bands,
