@@ -22,7 +22,8 @@ struct DrawReductions {
   bool sun_facing_triangles = true;
   /// Draws only tiles of the image that objects may affect, and copies the others.
   bool affected_tiles = true;
-  /// Interpolates smooth ratios from a coarse grid. Requires affected_tiles.
+  /// Interpolates smooth ratios from a coarse grid. Requires affected_tiles. Surfaces thinner than
+  /// four pixels may change by more than two steps.
   bool coarse_sky_ratio = true;
 
   /// Everything is drawn.

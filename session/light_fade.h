@@ -36,7 +36,7 @@ class LightFade {
   void End();
 
   std::vector<MeshLight> from_;             // Empty: no fade goes on.
-  std::vector<compositor::LitMesh> mixed_;  // In the last frame; before the first, `next`.
+  std::vector<compositor::LitMesh> mixed_;  // Light of the last At(); `next` until then.
   std::optional<UtcTime> start_;
 };
 

@@ -21,7 +21,8 @@
 
 namespace pleinair::session {
 
-/// How the light of a frame differs from the one that was estimated for the recording.
+/// How the light of a frame differs from the reference light: that of the recording's estimate, or
+/// the LightReference of a live session.
 struct FollowedLight {
   compositor::LightMix mix;               ///< Sun relative to sky; the sky's is 1.
   LinearRgb exposure{1.0, 1.0, 1.0};      ///< Factor on the exposure scale, brightness of the sky.

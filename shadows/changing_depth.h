@@ -23,8 +23,8 @@ struct ChangingCaster {
   }
 };
 
-/// Draws casters that often change over the depths of those that do not. It keeps the latter in
-/// memory, so that a new shape costs its own texels alone.
+/// Draws casters that change their shape often into a depth map of still casters. It keeps the
+/// still depths in memory, so a new shape costs only the texels of its old and new bounds.
 class ChangingDepth {
  public:
   /// Draws into the first `side` rows and columns of a layer of `depth`. `still_is_new`: the layer

@@ -10,7 +10,7 @@
 
 namespace pleinair::shadows {
 
-/// A rectangle of a map's texels, without its upper limits.
+/// A rectangle of a map's texels: x0 ≤ x < x1, y0 ≤ y < y1.
 struct TexelRect {
   int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
 
@@ -27,12 +27,12 @@ struct TriangleSpan {
   std::span<const std::uint32_t> indices;
 };
 
-/// Draws depths of triangles on the processor, as OpenGL does with depth clamping. The least depth
-/// at a texel's centre counts. Only triangles that run counter-clockwise in the map are drawn.
-/// Corners are rounded to 1/256 texel, so that no gap opens between neighbours.
+/// Rasterizes depths of triangles on the processor, by the rules of OpenGL with depth clamping.
+/// Each texel gets the minimum depth at its centre. Only triangles that run counter-clockwise in
+/// the map are drawn. Corners are rounded to 1/256 texel, so that no gap opens between neighbours.
 ///
-/// A software renderer of OpenGL divides triangles into blocks of a screen first. For the small
-/// triangles of a dense mesh that takes several times as long.
+/// A software renderer of OpenGL first sorts triangles into blocks of the image. It takes several
+/// times as long for the small triangles of a dense mesh.
 class DepthRaster {
  public:
   /// `texel_from_model`: to (column, row, depth); the first texel's centre is at (0.5, 0.5), depth

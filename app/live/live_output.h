@@ -25,8 +25,8 @@ namespace pleinair::app {
 /// Writes the observations of a live session in the file formats of replay: detections.jsonl,
 /// light.csv, poses/MARKER.tum and other trajectory formats. All files appear when the session
 /// ends. Trajectories stay in memory until then: about 140 bytes per frame and marker, 15 MB per
-/// hour at 30 Hz. A drawn frame's light takes 88 bytes more. For MCAP, each frame's line of
-/// detections.jsonl stays in memory, too.
+/// hour at 30 Hz. Each frame takes 16 bytes more. For MCAP, each frame's line of detections.jsonl
+/// stays in memory, too.
 class LiveOutput {
  public:
   struct Options {

@@ -18,7 +18,8 @@
 
 namespace pleinair::app {
 
-/// The requested files of a live session: the tracker's observations, and the light of frames.
+/// Writes the requested files of a live session: the tracker's observations, and the light of drawn
+/// frames (in memory until Finish(), 80 bytes each).
 class SightingFiles {
  public:
   /// `detections`: one line per frame. Errors: files that cannot be written, a lens model that a

@@ -26,9 +26,10 @@ bool IsClaimed(const std::filesystem::path& staging);
 /// its detections.jsonl, and stores the hash of these. Errors: the file cannot be read, WriteError.
 Result<void> DropFramesOfOtherDetections(const std::filesystem::path& staging);
 
-/// Moves the frames to where OutputFolder::Commit() leaves them. Error: WriteError.
+/// Moves the frames from `staging` into its folder kResumeFolder, which OutputFolder::Commit() does
+/// not publish. Error: WriteError.
 Result<void> SetFramesAside(const std::filesystem::path& staging);
-/// Undoes SetFramesAside(), if it was called and the results were not moved to their place.
+/// Moves such frames back into `staging`. No effect without any.
 void BringFramesBack(const std::filesystem::path& staging);
 
 /// True if a folder has the finished results of this command and version, nothing unfinished, and

@@ -25,13 +25,15 @@ class CoarseRatio {
   /// For the render targets of `camera`. Errors as RenderTargets::Create().
   static Result<CoarseRatio> Create(const RenderCamera& camera);
 
-  /// Max. difference of adjacent values of the grid that is interpolated, and thereby of an error:
-  /// two 8-bit values at white, less below.
+  /// Max. difference of adjacent grid values that are interpolated. It bounds the error of the
+  /// ratio on surfaces as wide as a grid pixel: two 8-bit steps at white (sRGB), fewer at darker
+  /// values. A thinner surface may lose up to its whole change of sky light.
   static constexpr float kMaxJump = 0.018F;
 
-  /// Draws what ShadowRatioPass::DrawSky() draws of `frame`, seen by `view`, in the tiles `wanted`
-  /// of the render image at least. Returns those among them that need the full resolution. Requires
-  /// GL_DEPTH_TEST disabled, and leaves it so.
+  /// Draws ShadowRatioPass::DrawSky() on the grid, for the `frame` and `view` of the render image.
+  /// Returns the tiles among `wanted` (render image) whose adjacent values differ by more than
+  /// kMaxJump: they need the full resolution. Afterwards GL_DEPTH_TEST and GL_CULL_FACE are
+  /// disabled.
   ImageTiles Draw(const ShadowRatioPass& pass, const SceneSurfaces& surfaces,
                   const SurfacePrograms& programs, const shadows::View& view,
                   const FrameUniforms& frame, const ImageTiles& wanted);

@@ -37,7 +37,8 @@ class CameraPicture {
 
   /// Uploads the camera image `rgb`. It must have the camera's size and no gaps between rows.
   void SetBackground(ImageView<const std::uint8_t> rgb);
-  /// Farthest render pixels, along a row or column, that a drawn one is spread to. 0 without blur.
+  /// Max. distance by which the blur spreads a drawn pixel, along a row or column, in render
+  /// pixels. 0 without blur.
   int Spread_px() const { return added_blur_px_ > 0.0 ? 2 * BlurReach_px() : 0; }
   /// Sets the tiles of the render image for the next Draw(). `tiles.all` must have all render
   /// pixels within Spread_px() of a ratio other than 1 or of an object, `tiles.fine` those that

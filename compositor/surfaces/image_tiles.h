@@ -8,16 +8,16 @@
 
 namespace pleinair::compositor {
 
-/// Pixels, as glScissor takes them.
+/// A rectangle of pixels, as glScissor takes it: (x, y) is the pixel at the lowest x and y.
 struct PixelRect {
   int x = 0, y = 0, width = 0, height = 0;
   bool operator==(const PixelRect&) const = default;
 };
 
-/// An image of the scene.
+/// How positions are projected into an image, for finding the tiles that they affect.
 struct SceneProjection {
-  int width = 0, height = 0;
-  /// Distance by which passes spread what they draw, such as a blur.
+  int width = 0, height = 0;  ///< Pixels.
+  /// Max. distance by which later passes, such as the blur, spread what is drawn.
   int spread_px = 0;
   glm::mat4 clip_from_position{1.0F};  ///< To OpenGL's clip space; w is the depth in metres.
   float near_m = 0.0F;                 ///< Nearer parts are not drawn.

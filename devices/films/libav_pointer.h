@@ -34,7 +34,7 @@ struct LibavDeleter {
 template <typename T>
 using LibavPointer = std::unique_ptr<T, LibavDeleter>;
 
-/// libav's words for its error number.
+/// Message for an error code of libav. It continues a sentence about the file ("is damaged: …").
 inline std::string LibavText(int code) {
   if (code == AVERROR_INVALIDDATA) return "its data contradict its format";
   if (code == AVERROR_EOF) return "it ends too early";

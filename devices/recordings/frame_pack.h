@@ -65,10 +65,10 @@ struct OpenedFramePack {
 /// Opens the whole frames of a pack, with the recorded time stamps, exposure and losses. A frame is
 /// whole if its checksum holds. Opening reads the headers, and the first and the last frame. If
 /// they are damaged, and when Next() meets a damaged frame, it reads the file once: behind damage
-/// it searches for the next whole frame. FrameCount() stays the number found at opening; damage
-/// that Next() finds makes it fewer frames. Time stamps count from the first whole frame. `size`:
-/// required size of every frame; 0x0: the size of the first. Errors: not a frame pack, no whole
-/// frame, another size.
+/// it searches for the next whole frame. FrameCount() is the number found at opening. Next()
+/// returns fewer frames if it finds further damage. Time stamps count from the first whole frame.
+/// `size`: required size of every frame; 0x0: the size of the first. Errors: not a frame pack, no
+/// whole frame, another size.
 Result<OpenedFramePack> OpenFramePack(const std::filesystem::path& file, ImageSize size);
 
 struct RecoveredFramePack {

@@ -20,7 +20,8 @@ inline constexpr std::string_view kFramePackStart = "pleinair frames\n";
 struct FrameRecordHead {
   static constexpr std::size_t kBytes = 24;
   static constexpr std::string_view kMagic = "FRAM";
-  /// The keys that every frame has need more. Millions of made-up headers would fill the memory.
+  /// The mandatory keys take more bytes. The limit bounds the number of forged records in a file,
+  /// and thereby the memory for their places.
   static constexpr std::uint32_t kMinMetadataBytes = 100;
   static constexpr std::uint32_t kMaxMetadataBytes = 64 * 1024;
   static constexpr std::uint64_t kMaxImageBytes = std::uint64_t{1} << 31;

@@ -18,7 +18,7 @@ namespace pleinair::devices {
 struct FramePackPlace {
   std::int64_t at = 0;  ///< Offset of its first byte in the file.
   FrameRecordHead head;
-  std::int64_t timestamp_ns = 0;  ///< In a chain: known of the first and the last frame alone.
+  std::int64_t timestamp_ns = 0;  ///< From WalkFramePack(): 0 but for the first and last.
 
   std::int64_t bytes() const {
     return static_cast<std::int64_t>(FrameRecordHead::kBytes + head.metadata_bytes +
@@ -37,9 +37,10 @@ struct FramePackScan {
   std::vector<std::string> Damage(const std::filesystem::path& file) const;
 };
 
-/// Goes from header to header of a file without damage to their order. Reads all bytes of the first
-/// and the last record alone: a power cut damages the end. Nullopt: the headers do not lead to the
-/// end of the file, or one of the two records is damaged; ScanFramePack() then finds what is whole.
+/// Finds the records of a frames.pack by their headers alone. Cost: one header per frame. It checks
+/// only the first and the last record as a whole, because a power cut damages the end. Nullopt: the
+/// headers do not lead to the end of the file, or one of the two records is damaged.
+/// ScanFramePack() then finds the whole frames.
 std::optional<FramePackScan> WalkFramePack(const std::filesystem::path& file);
 
 /// Finds the whole frames of a frames.pack, also of a cut or damaged one. A damaged record is

@@ -39,8 +39,8 @@ struct Recording {
   bool is_photo = false;               ///< A single photograph.
   FilmCurve curve = FilmCurve::kSrgb;  ///< Of the frames, by a film's tags.
   std::optional<RecordedSound> sound;  ///< Of films that keep their own time stamps.
-  /// What of the frames is lost, as sentences. It grows while the frames are read: it is complete
-  /// behind the last one, and must not be read while another thread reads frames.
+  /// Which frames are lost, as sentences. It grows while frames are read, and is complete after the
+  /// last one. It must not be read while another thread reads frames.
   std::shared_ptr<const std::vector<std::string>> damage =
       std::make_shared<const std::vector<std::string>>();
   std::unique_ptr<FrameSource> frames;

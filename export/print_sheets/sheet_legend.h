@@ -28,7 +28,9 @@ inline constexpr const char* kHowToMount = "Leave the white margin on it; mount 
 struct SheetLabel {
   std::string text;
   double width_mm = 0.0;  ///< Width of the markers' area.
+  /// Font size: 3 mm, or less where the text would exceed the width.
   double TextSize_mm() const;
+  /// Height of the strip above the white margin, whole millimetres.
   double Height_mm() const;
 };
 
@@ -38,7 +40,7 @@ PageSize PageNeeded(const SheetLegend& legend, Vec2 area_mm);
 /// Error (input): it does not fit; the error names a page that does.
 Result<void> CheckFit(const SheetLegend& legend, Vec2 area_mm, PageSize page);
 
-/// Top-left corner of the markers' area and its label, on whole millimetres.
+/// Top-left corner on the page, on whole millimetres, of an area: label strip and markers.
 Vec2 PlaceArea(Vec2 area_mm, PageSize page);
 
 void AddLabel(Sheet* sheet, const SheetLabel& label, Vec2 area_top_left_mm);

@@ -20,8 +20,8 @@
 
 namespace pleinair::session {
 
-/// Follows sun and sky of a live session (ForwardFollower). No frame waits for it: it has two
-/// threads. One estimates the light of the newest frame. The other, of low priority, traces the
+/// Follows sun and sky of a live session (ForwardFollower) on two threads, so that no frame waits
+/// for it. One estimates the light of the newest frame. The other, of low priority, traces the
 /// light on new probes. A frame is drawn with its own light, or with that of the last frame before
 /// it whose light is known.
 class LiveLight {
@@ -38,8 +38,8 @@ class LiveLight {
             const Transform<Camera, Marker>& camera_from_marker,
             const scene::MarkerReflectance& marker);
 
-  /// Light of a frame, or of the last one before it that was followed. Reaches back to the last
-  /// hundred frames that were followed.
+  /// Light of a frame, or of the last followed frame before it. The last hundred followed frames
+  /// are kept; for a frame before all of them, the reference light.
   FollowedLight Of(std::int64_t frame_index) const;
 
   /// State of the newest frame that was followed.

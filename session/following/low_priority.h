@@ -6,8 +6,8 @@
 
 namespace pleinair::session {
 
-/// Gives the calling thread, and the threads that it starts, a lower priority than that of all on
-/// which a frame waits. Linux counts niceness per thread. A refusal only costs time.
+/// Sets the calling thread, and the threads that it starts later, to nice 10 (Linux: niceness per
+/// thread). Threads on which a frame waits thus run first. Failure is ignored.
 inline void LowerPriority() {
   constexpr int kNice = 10;
   static_cast<void>(setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), kNice));

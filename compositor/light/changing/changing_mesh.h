@@ -32,12 +32,12 @@ class ChangingMesh {
   std::span<const SurfaceMesh> surfaces() const { return surfaces_; }
   /// What to draw, without light: one mesh per surface, and a second for the back of an open one.
   std::vector<LitMesh> DrawnMeshes() const;
-  /// How vertices have moved.
+  /// How vertices have moved since the last CopyShape() into the same meshes.
   struct Movement {
-    float farthest_m = 0.0F;  ///< Along an axis.
-    bool any = false;         ///< A vertex has moved or turned.
+    float farthest_m = 0.0F;  ///< Max. change of a coordinate of a vertex.
+    bool any = false;         ///< A position or normal has changed.
   };
-  /// Copies the current positions and normals into such meshes.
+  /// Copies the current positions and normals into the meshes of DrawnMeshes().
   Movement CopyShape(std::span<LitMesh> drawn) const;
 
  private:

@@ -119,7 +119,7 @@ inline Shape Lathe(const std::vector<std::array<double, 2>>& profile, std::uint3
   return sheet;
 }
 
-/// A ring about the vertical axis, radius 1, its tube 0.45 thick: `faces` triangles, almost.
+/// A torus about the z axis: ring radius 1, tube radius 0.45, about `faces` triangles.
 inline Shape Torus(double faces) {
   constexpr double kTube = 0.45;
   const auto around = static_cast<std::uint32_t>(std::lround(std::sqrt(faces * 1.25)));

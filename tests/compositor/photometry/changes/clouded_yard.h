@@ -91,8 +91,8 @@ inline const std::vector<bool>& SunlitProbes() {
   return sunlit;
 }
 
-/// From the fifth frame on, a person hides 35 % of the sunlit probes of CloudedFilm(), others in
-/// each frame, by cloth of any brightness.
+/// From frame 5 on (the first is 0), a person hides 35 % of the sunlit probes of CloudedFilm().
+/// They differ in each frame, and the cloth has any brightness.
 inline void HideSunlitProbes(std::vector<ProbedFrame>* frames) {
   for (std::size_t t = 5; t < frames->size(); ++t) {
     ProbedFrame& frame = (*frames)[t];
@@ -106,7 +106,7 @@ inline void HideSunlitProbes(std::vector<ProbedFrame>* frames) {
   }
 }
 
-/// From the third frame on, as the cloud comes, a hand covers the marker.
+/// From frame 3 on (the first is 0), as the cloud comes, a hand covers the marker.
 inline void CoverTheMarker(std::vector<ProbedFrame>* frames) {
   for (std::size_t t = 3; t < frames->size(); ++t) {
     ProbedFrame& frame = (*frames)[t];
@@ -121,7 +121,7 @@ inline void CoverTheMarker(std::vector<ProbedFrame>* frames) {
   }
 }
 
-/// Exposure of a frame of 30 Hz under lamps of 50 Hz, whose light pulsates at 100 Hz.
+/// Exposure factor of a frame at 30 Hz under mains lamps (50 Hz), whose light pulsates at 100 Hz.
 inline double UnderLamps(int frame) {
   return 1.0 + 0.1 * std::sin(2.0 * std::numbers::pi * 100.0 / 30.0 * frame);
 }
