@@ -10,8 +10,8 @@ namespace {
 // Two pixels of the coarse grid (passes/coarse_ratio.h). Some pixels of the grid show what only
 // fine tiles draw: interpolation beside such a tile must not read them.
 constexpr int kCoarseReach_px = 8;
-// Pixels whose ratio and blur take the software renderer as long as drawing a triangle once more
-// (docs/measurements/performance.md).
+// Pixels whose ratio and blur take the software renderer about as long as drawing a triangle once
+// more. They decide on speed alone.
 constexpr int kPixelsPerTriangle = 6, kBlurredPixelsPerTriangle = 2;
 
 }  // namespace
