@@ -1,11 +1,14 @@
 #include "app/check/check_project.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
 
 #include "app/check/spread_frames.h"
+#include "app/replay/given_trajectory.h"
 #include "app/replay/placement_warnings.h"
 #include "app/terminal/interrupt.h"
 #include "devices/recordings/recording.h"
@@ -21,13 +24,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostFrames = 24;
+// With a trajectory, the marker may be in view for a second of a minute.
+constexpr std::size_t kMaxFrames = 24, kMaxFramesAlongTrajectory = 96;
 
 Result<devices::Recording> OpenSpread(const CheckRequest& request) {
   PLEINAIR_ASSIGN_OR_RETURN(
       devices::Recording recording,
       devices::OpenRecording(request.project, {request.calibration, request.scene}));
-  recording.frames = std::make_unique<SpreadFrames>(std::move(recording.frames), kMostFrames);
+  const bool has_trajectory = recording.scene && recording.scene->trajectory;
+  recording.frames = std::make_unique<SpreadFrames>(
+      std::move(recording.frames), has_trajectory ? kMaxFramesAlongTrajectory : kMaxFrames);
   return recording;
 }
 
@@ -56,6 +62,20 @@ const tracker::MarkerObservation* SceneMarkerIn(
   return at == markers.end() ? nullptr : &*at;
 }
 
+/// Composes along the scene's trajectory from now on, if it fits.
+TrajectoryFit FitTrajectory(const session::TrajectoryRequest& request,
+                            session::Pipeline* pipeline) {
+  TrajectoryFit fit;
+  fit.has_marker = !request.points.empty() || pipeline->tracks().ReferenceMarker().has_value();
+  if (!fit.has_marker) return fit;
+  if (const auto followed = pipeline->FollowTrajectory(request); !followed) {
+    fit.summary = tl::make_unexpected(followed.error());
+  } else {
+    fit.summary = *pipeline->trajectory_summary();
+  }
+  return fit;
+}
+
 }  // namespace
 
 Result<SiteFacts> LookAtSite(const CheckRequest& request) {
@@ -71,6 +91,10 @@ Result<SiteFacts> LookAtSite(const CheckRequest& request) {
   }
   const scene::SceneDescription scene = *recording.scene;
   const CameraModel camera = recording.camera;
+  std::optional<session::TrajectoryRequest> trajectory;
+  if (scene.trajectory) {
+    PLEINAIR_ASSIGN_OR_RETURN(trajectory, ReadGivenTrajectory(*scene.trajectory));
+  }
   session::PipelineOptions options;
   options.light.film_response = devices::ResponseOf(recording.curve);
   PLEINAIR_ASSIGN_OR_RETURN(const auto pipeline, session::Pipeline::Create(camera, scene, options));
@@ -82,6 +106,7 @@ Result<SiteFacts> LookAtSite(const CheckRequest& request) {
   const CameraResponse response = pipeline->renderer().response();
   const auto take = [&](const devices::Frame& frame,
                         const session::TrackedFrame& tracked) -> Result<void> {
+    if (facts.looked_at == 0 && trajectory) trajectory->clock_start_ns = ClockStartOf(frame);
     ++facts.looked_at;
     const tracker::MarkerObservation* marker = SceneMarkerIn(tracked.observations, scene.marker);
     if (marker == nullptr) return {};
@@ -96,13 +121,15 @@ Result<SiteFacts> LookAtSite(const CheckRequest& request) {
   const auto damage = recording.damage;
   PLEINAIR_RETURN_IF_ERROR(session::TrackRecording(*pipeline, std::move(recording), take, monitor));
   facts.damage = *damage;
-  const auto reference = pipeline->tracks().ReferenceMarker();
+  pipeline->FollowAnchors();
+  if (trajectory) facts.trajectory = FitTrajectory(*trajectory, pipeline.get());
+  facts.with_pose = static_cast<std::int64_t>(pipeline->Path().size());
+  const auto reference = pipeline->PathMarker();
   if (!reference) return facts;
   facts.marker = reference->ToString();
   session::SceneRenderer& renderer = pipeline->renderer();
   if (facts.has_objects) {
-    facts.placement = PlacementWarnings(renderer.placed(), scene,
-                                        {camera, pipeline->tracks().TrackOf(*reference)},
+    facts.placement = PlacementWarnings(renderer.placed(), scene, {camera, pipeline->Path()},
                                         renderer.phantom_rays());
   }
   if (!renderer.CanMeasureLight()) return facts;

@@ -14,9 +14,9 @@ struct CheckRequest {
   std::optional<std::filesystem::path> scene, calibration;  ///< As for replay.
 };
 
-/// Measures up to 24 frames, spread over a recording, and collects the input of JudgeSite().
-/// Errors: those of OpenRecording(), Pipeline::Create() and the passes; a recording without a
-/// scene; interrupted.
+/// Measures up to 24 frames, 96 with a trajectory, spread over a recording, and collects the input
+/// of JudgeSite(). Errors: those of OpenRecording(), Pipeline::Create() and the passes; a recording
+/// without a scene; interrupted.
 Result<SiteFacts> LookAtSite(const CheckRequest& request);
 
 }  // namespace pleinair::app

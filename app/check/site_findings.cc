@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "app/check/trajectory_finding.h"
 #include "base/units.h"
 #include "tracker/observation.h"
 
@@ -42,13 +43,20 @@ SiteFinding MarkerFinding(const SiteFacts& facts) {
   SiteFinding finding{"marker", Verdict::kGood,
                       fmt::format("{} in {} of {} frames", facts.marker, seen, facts.looked_at),
                       ""};
-  if (seen == 0) {
+  if (facts.with_pose > seen) {
+    finding.text += fmt::format("; the camera's pose is known in {}", facts.with_pose);
+  }
+  if (seen == 0 && facts.with_pose > 0) {
+    finding.verdict = Verdict::kUnknown;
+    finding.text = fmt::format("seen in none of {} frames", facts.looked_at);
+    finding.remedy = "without it the exposure is a guess: set exposure_gain";
+  } else if (seen == 0) {
     finding.verdict = Verdict::kBad;
     finding.text = fmt::format("seen in none of {} frames", facts.looked_at);
     finding.remedy =
         "film it sharp, flat, whole and in the open; check family and id in the scene "
         "(docs/guide/troubleshoot.md)";
-  } else if (10 * seen < 9 * facts.looked_at) {
+  } else if (10 * std::max(seen, facts.with_pose) < 9 * facts.looked_at) {
     finding.verdict = Verdict::kDoubtful;
     finding.remedy = "keep it in view: the object is missing from frames without it";
   }
@@ -221,7 +229,7 @@ void AddObjectFindings(const SiteFacts& facts, std::vector<SiteFinding>* finding
                          "add [[object]] (docs/guide/describe.md)"});
     return;
   }
-  if (facts.frames.empty()) return;
+  if (facts.frames.empty() && facts.with_pose == 0) return;
   for (const std::string& sentence : facts.placement) {
     findings->push_back({"object", Verdict::kDoubtful, sentence, ""});
   }
@@ -250,6 +258,9 @@ std::vector<SiteFinding> JudgeSite(const SiteFacts& facts) {
     findings.push_back({"frames", Verdict::kDoubtful, lost, ""});
   }
   findings.push_back(MarkerFinding(facts));
+  if (facts.trajectory) {
+    findings.push_back(TrajectoryFinding(*facts.trajectory, facts.looked_at));
+  }
   if (!facts.frames.empty()) {
     findings.push_back(SizeFinding(facts));
     findings.push_back(ViewFinding(facts));

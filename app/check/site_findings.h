@@ -1,11 +1,14 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "app/check/frame_facts.h"
+#include "base/error.h"
 #include "compositor/photometry/measured_light.h"
+#include "session/trajectory/follow_trajectory.h"
 
 namespace pleinair::app {
 
@@ -23,6 +26,12 @@ struct SiteFinding {
 /// "good", "doubtful", "bad", "not checked".
 const char* VerdictText(SiteVerdict verdict);
 
+/// How the scene's trajectory fits the film.
+struct TrajectoryFit {
+  bool has_marker = true;  ///< It is aligned by places, or a frame shows the marker.
+  Result<session::TrajectorySummary> summary{};  ///< Error: it does not fit, and why.
+};
+
 /// Measurements of a site: the input of JudgeSite().
 struct SiteFacts {
   std::vector<FrameFacts> frames;  ///< Those that show the marker.
@@ -34,10 +43,12 @@ struct SiteFacts {
   bool has_objects = false;
   std::vector<std::string> damage;     ///< What of the recording's frames is lost.
   std::vector<std::string> placement;  ///< PlacementWarnings(), one sentence each.
+  std::int64_t with_pose = 0;  ///< Frames with a pose, by the marker, anchors or a trajectory.
+  std::optional<TrajectoryFit> trajectory{};  ///< Nothing: the scene has none.
 };
 
-/// Judges: frames, if some are lost, marker, size, view, blur, exposure, lens, sun, heading,
-/// object; in this order.
+/// Judges: frames, if some are lost, marker, trajectory, if there is one, size, view, blur,
+/// exposure, lens, sun, heading, object; in this order.
 std::vector<SiteFinding> JudgeSite(const SiteFacts& facts);
 
 }  // namespace pleinair::app

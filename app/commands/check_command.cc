@@ -23,7 +23,7 @@ constexpr const char* kCheckExamples =
     "Checks: is the marker seen, large, sharp and rightly exposed; does the lens stay the same "
     "and\n"
     "fit its calibration; is the sun up; do shadows agree with the heading; is the object in "
-    "view.\n"
+    "view; does a [trajectory] fit the film.\n"
     "A finding is good, doubtful (the picture may be wrong), bad (it will be) or not checked. "
     "Exit\n"
     "code 0: nothing is bad; 1: something is; 2: the project cannot be read.";

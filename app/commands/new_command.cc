@@ -15,6 +15,7 @@
 #include "app/options/model_options.h"
 #include "app/options/number_range.h"
 #include "app/options/option_use.h"
+#include "app/options/trajectory_options.h"
 #include "app/project/new_project.h"
 #include "app/project/questions.h"
 #include "files/csv.h"
@@ -32,6 +33,8 @@ constexpr const char* kNewExamples =
     "      asks nothing: time and place are those of the film's tags\n"
     "  pleinair new walk.mp4 -o site --size-mm 200 --heading-magnetic 337 \\\n"
     "      --time '2025-09-14T13:05:00[Europe/Prague]' --at 50.0875,14.4213,220\n"
+    "  pleinair new scan/rgb.mp4 --trajectory scan -o site\n"
+    "      a walk of Stray Scanner: the scene names its trajectory, whose lens counts\n"
     "  pleinair check site && pleinair replay site -o out\n"
     "The folder gets scene.toml with a comment beside every value, recording.json with the lens "
     "and\n"
@@ -48,6 +51,7 @@ struct NewArguments {
   std::optional<double> heading_deg, heading_magnetic_deg;
   std::optional<double> size_mm, marker_height_m;
   bool upright = false;
+  scene::TrajectoryDescription trajectory;
   struct Flags {
     bool yes = false, force = false, json = false;
   } flags;
@@ -93,6 +97,7 @@ Result<NewProjectRequest> RequestOf(const NewArguments& arguments) {
   stated.upright = arguments.upright;
   if (!arguments.words.model.empty()) stated.model = arguments.words.model;
   stated.accepts_tags = arguments.flags.yes;
+  if (!arguments.trajectory.file.empty()) request.trajectory = arguments.trajectory;
   request.replaces = arguments.flags.force;
   return request;
 }
@@ -196,6 +201,7 @@ void AddNewCommand(CLI::App& app, CommandResult& result) {
                       "26 mm on 35 mm film, as of a usual phone");
   command->add_option("--marker", arguments->words.marker,
                       "Marker to use, sg_17 or tag36h11_0. Default: the one most frames show");
+  AddTrajectoryOptions(*command, arguments->trajectory);
   command->add_flag("-y,--yes", arguments->flags.yes,
                     "Ask nothing; take time, place and direction of the files' tags");
   command->add_flag("--force", arguments->flags.force, "Replace an earlier project in the folder");

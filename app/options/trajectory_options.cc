@@ -12,9 +12,9 @@ namespace pleinair::app {
 void AddTrajectoryOptions(CLI::App& command, scene::TrajectoryDescription& trajectory) {
   CLI::Option* file = command.add_option(
       "--trajectory", trajectory.file,
-      "Compose along this camera trajectory, also where no marker is seen: TUM (.tum, .txt), EuRoC "
+      "Camera trajectory to compose along, also where no marker is seen: TUM (.tum, .txt), EuRoC "
       "(.csv), a COLMAP model (folder), Stray Scanner (its folder, or odometry.csv) or Record3D "
-      "(its metadata); instead of the scene's [trajectory]");
+      "(its .r3d); replay takes it instead of the scene's [trajectory]");
   command
       .add_option("--trajectory-format", trajectory.format,
                   "Format of the trajectory where its name does not show it")

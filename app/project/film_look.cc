@@ -64,10 +64,12 @@ Result<KnownLens> LensFor(const LookedAtFile& opened, const FilmLook& look,
   return KnownLens{fitted.camera, options.lens->from, std::move(fitted.note)};
 }
 
-std::size_t CountOfLooks(ImageSize size) {
+std::size_t CountOfLooks(ImageSize size, bool is_marker_rare) {
+  constexpr std::size_t kRareFactor = 8;
   constexpr double kPixels = 25e6, kFewest = 4.0, kMost = 12.0;
   const double each = std::max(1.0, static_cast<double>(size.width) * size.height);
-  return static_cast<std::size_t>(std::clamp(kPixels / each, kFewest, kMost));
+  const auto looks = static_cast<std::size_t>(std::clamp(kPixels / each, kFewest, kMost));
+  return is_marker_rare ? kRareFactor * looks : looks;
 }
 
 }  // namespace
@@ -109,7 +111,8 @@ Result<FilmLook> LookAt(const fs::path& file, const LookOptions& options) {
   PLEINAIR_ASSIGN_OR_RETURN(const auto tracker, tracker::Tracker::Create(camera, tracking));
   look.frames = opened.frames->FrameCount().value_or(1);
   for (const std::size_t index :
-       session::EvenlySpread(static_cast<std::size_t>(look.frames), CountOfLooks(opened.size))) {
+       session::EvenlySpread(static_cast<std::size_t>(look.frames),
+                             CountOfLooks(opened.size, options.is_marker_rare))) {
     const auto wanted = static_cast<std::int64_t>(index);
     opened.frames->SkipTo(wanted);
     for (;;) {

@@ -51,6 +51,8 @@ std::vector<std::string> FamiliesToLookFor(const std::optional<std::string>& wan
 struct LookOptions {
   std::optional<KnownLens> lens;        ///< In place of AssumedLens(); FitCamera() fits it.
   std::optional<std::string> family{};  ///< In place of "sg" and "tag36h11".
+  /// True if the marker may be in view for a second only: eight times as many frames are looked at.
+  bool is_marker_rare = false;
 };
 
 /// Detects markers in at most 12 frames of a film, or in a photograph. Large frames are

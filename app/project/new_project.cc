@@ -10,6 +10,7 @@
 #include "app/project/lens_of_film.h"
 #include "app/project/project_folder.h"
 #include "app/project/scene_text.h"
+#include "app/replay/given_trajectory.h"
 #include "app/terminal/interrupt.h"
 #include "devices/calibration/calibration.h"
 #include "devices/images/image_file.h"
@@ -53,17 +54,34 @@ Result<std::vector<fs::path>> InOrder(const std::vector<fs::path>& files) {
   return films;
 }
 
+/// The lens of the film, before it is scaled and turned; nothing: to be assumed. Errors: an
+/// unreadable calibration, trajectory or film.
+Result<std::optional<KnownLens>> LensOf(const NewProjectRequest& request, const fs::path& film) {
+  std::optional<CameraModel> by_trajectory;
+  if (request.trajectory) {
+    PLEINAIR_ASSIGN_OR_RETURN(const exports::CameraTrajectory path,
+                              ReadTrajectoryFile(*request.trajectory));
+    if (request.trajectory->turn_deg == 0) by_trajectory = path.camera;
+  }
+  if (request.calibration) {
+    PLEINAIR_ASSIGN_OR_RETURN(CameraModel camera, devices::ReadCalibration(*request.calibration));
+    return KnownLens{camera, request.calibration->filename().string()};
+  }
+  if (by_trajectory) {
+    return KnownLens{*by_trajectory,
+                     "the trajectory " + request.trajectory->file.filename().string()};
+  }
+  if (devices::IsImageFile(film)) return std::nullopt;
+  return LensOfFilm(film, FamiliesToLookFor(request.marker ? std::optional(request.marker->family)
+                                                           : std::nullopt));
+}
+
 Result<Footage> LookAtAll(const NewProjectRequest& request) {
   PLEINAIR_ASSIGN_OR_RETURN(const std::vector<fs::path> files, InOrder(request.files));
   LookOptions options;
   if (request.marker) options.family = request.marker->family;
-  if (request.calibration) {
-    PLEINAIR_ASSIGN_OR_RETURN(CameraModel camera, devices::ReadCalibration(*request.calibration));
-    options.lens = KnownLens{camera, request.calibration->filename().string()};
-  } else if (!devices::IsImageFile(files.front())) {
-    PLEINAIR_ASSIGN_OR_RETURN(options.lens,
-                              LensOfFilm(files.front(), FamiliesToLookFor(options.family)));
-  }
+  options.is_marker_rare = request.trajectory.has_value();
+  PLEINAIR_ASSIGN_OR_RETURN(options.lens, LensOf(request, files.front()));
   Footage footage;
   PLEINAIR_ASSIGN_OR_RETURN(footage.film, LookAt(files.front(), options));
   const auto marker = ChooseMarker(footage.film, request.marker);
@@ -105,6 +123,11 @@ Result<NewProject> MakeProject(const NewProjectRequest& request, Questions* ques
   PLEINAIR_ASSIGN_OR_RETURN(NewScene scene, CollectScene(footage, request.stated, questions));
   ProjectFiles files;
   PLEINAIR_ASSIGN_OR_RETURN(files.scene_toml, NewSceneToml(scene, request.folder));
+  if (request.trajectory) {
+    PLEINAIR_ASSIGN_OR_RETURN(const std::string table,
+                              NewTrajectoryToml(*request.trajectory, request.folder));
+    files.scene_toml += table;
+  }
   PLEINAIR_ASSIGN_OR_RETURN(files.recording_json,
                             NewRecordingJson(footage.film.file, footage.film.lens, request.folder));
   PLEINAIR_ASSIGN_OR_RETURN(const scene::SceneDescription description,

@@ -8,6 +8,7 @@
 
 #include "app/project/new_scene.h"
 #include "base/error.h"
+#include "scene/trajectory_description.h"
 #include "session/marker_tracks.h"
 
 namespace pleinair::app {
@@ -20,6 +21,8 @@ struct NewProjectRequest {
   std::optional<std::filesystem::path> calibration;
   std::optional<session::MarkerName> marker;
   StatedScene stated;
+  /// Trajectory of the film that the scene names; its lens counts where it has one.
+  std::optional<scene::TrajectoryDescription> trajectory{};
   bool replaces = false;  ///< An earlier project in the folder.
 };
 

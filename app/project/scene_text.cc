@@ -120,6 +120,32 @@ Result<std::string> NewSceneToml(const NewScene& scene, const fs::path& folder) 
   return text;
 }
 
+Result<std::string> NewTrajectoryToml(const scene::TrajectoryDescription& trajectory,
+                                      const fs::path& folder) {
+  std::string text = "\n";
+  text += Line("[trajectory]", "of the camera; 'pleinair check' tells whether it fits the film");
+  const auto add_file = [&](const char* key, const fs::path& file) -> Result<void> {
+    if (file.empty()) return {};
+    PLEINAIR_ASSIGN_OR_RETURN(const std::string name, RelativeName(file, folder));
+    text += fmt::format("{} = {}\n", key, TomlString(name));
+    return {};
+  };
+  const auto add_number = [&](const char* key, const std::optional<double>& number) {
+    if (number) text += fmt::format("{} = {}\n", key, *number);
+  };
+  PLEINAIR_RETURN_IF_ERROR(add_file("file", trajectory.file));
+  PLEINAIR_RETURN_IF_ERROR(add_file("points", trajectory.points));
+  PLEINAIR_RETURN_IF_ERROR(add_file("extrinsics", trajectory.extrinsics));
+  if (!trajectory.format.empty()) text += "format = " + TomlString(trajectory.format) + "\n";
+  add_number("offset_s", trajectory.offset_s);
+  add_number("scale", trajectory.scale);
+  if (trajectory.is_scale_free) text += "scale = \"free\"\n";
+  if (trajectory.turn_deg != 0) text += fmt::format("turn_deg = {}\n", trajectory.turn_deg);
+  add_number("max_gap_s", trajectory.max_gap_s);
+  add_number("frame_rate_hz", trajectory.frame_rate_hz);
+  return text;
+}
+
 Result<std::string> NewRecordingJson(const fs::path& film, const KnownLens& lens,
                                      const fs::path& folder) {
   PLEINAIR_ASSIGN_OR_RETURN(const std::string name, RelativeName(film, folder));

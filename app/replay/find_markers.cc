@@ -8,6 +8,7 @@
 #include "app/output/observed_trajectory.h"
 #include "app/output/resumption.h"
 #include "app/output/trajectory_export.h"
+#include "app/replay/given_trajectory.h"
 #include "app/terminal/pass_bar.h"
 #include "session/recording_passes.h"
 
@@ -25,11 +26,7 @@ Result<void> FindMarkers(ReplayState& state, devices::Recording recording) {
     if (is_first) {
       state.first_stamp_ns = frame.timestamp_ns;
       state.report.film.first_frame = frame.index;
-      std::int64_t start_ns = 0;
-      if (frame.device_timestamp_ns &&
-          !__builtin_sub_overflow(*frame.device_timestamp_ns, frame.timestamp_ns, &start_ns)) {
-        state.report.film.clock_start_ns = start_ns;
-      }
+      state.report.film.clock_start_ns = ClockStartOf(frame);
     }
     is_first = false;
     state.lost_frames += frame.lost_before;

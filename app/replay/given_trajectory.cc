@@ -109,4 +109,13 @@ Result<session::TrajectoryRequest> ReadGivenTrajectory(
   return request;
 }
 
+std::optional<std::int64_t> ClockStartOf(const devices::Frame& first) {
+  std::int64_t start_ns = 0;
+  if (!first.device_timestamp_ns ||
+      __builtin_sub_overflow(*first.device_timestamp_ns, first.timestamp_ns, &start_ns)) {
+    return std::nullopt;
+  }
+  return start_ns;
+}
+
 }  // namespace pleinair::app

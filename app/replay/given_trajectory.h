@@ -1,6 +1,10 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
+
 #include "base/error.h"
+#include "devices/frame.h"
 #include "export/trajectories/camera_trajectory.h"
 #include "scene/trajectory_description.h"
 #include "session/trajectory/given_trajectory.h"
@@ -17,5 +21,9 @@ Result<exports::CameraTrajectory> ReadTrajectoryFile(
 /// images without numbers.
 Result<session::TrajectoryRequest> ReadGivenTrajectory(
     const scene::TrajectoryDescription& description);
+
+/// The time of a recording's start by the camera's own clock, nanoseconds, from its first frame;
+/// nothing if that has no stamp of the device. A trajectory may share this clock.
+std::optional<std::int64_t> ClockStartOf(const devices::Frame& first);
 
 }  // namespace pleinair::app

@@ -46,11 +46,19 @@ std::string OffsetSentence(const session::TrajectoryOffset& offset) {
 
 }  // namespace
 
+bool DisagreesWithMarker(const session::TrajectorySummary& summary) {
+  return !summary.by_points && summary.alignment.chi2_per_dof > kExplainedChi2;
+}
+
+bool HasTiltedMarker(const session::TrajectorySummary& summary) {
+  return summary.tilt && ToDegrees(*summary.tilt) > kNoticeableTilt_deg;
+}
+
 std::vector<std::string> TrajectoryWarnings(const session::TrajectorySummary& summary) {
   const session::TrajectoryAlignment& alignment = summary.alignment;
   std::vector<std::string> warnings{Rests(summary)};
   if (!summary.by_frame) warnings.push_back(OffsetSentence(summary.offset));
-  if (!summary.by_points && alignment.chi2_per_dof > kExplainedChi2) {
+  if (DisagreesWithMarker(summary)) {
     warnings.push_back(fmt::format(
         "Trajectory and marker disagree by {:.1f} px (at most {:.1f} px), more than the corners' "
         "noise explains. The object moves so far against the marker. Check the lens, the "
@@ -73,7 +81,7 @@ std::vector<std::string> TrajectoryWarnings(const session::TrajectorySummary& su
         "{} of {} frames with the marker contradict the others and do not count for the alignment.",
         alignment.outliers, alignment.used));
   }
-  if (summary.tilt && ToDegrees(*summary.tilt) > kNoticeableTilt_deg) {
+  if (HasTiltedMarker(summary)) {
     warnings.push_back(fmt::format(
         "By the trajectory, the marker is tilted by {:.0f} degrees. If it is not, the frames are "
         "turned against the trajectory's images (--trajectory-turn-deg), or the scene's upright is "

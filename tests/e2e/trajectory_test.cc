@@ -219,6 +219,27 @@ TEST(Trajectory, ThreePlacesInTheSceneFileNeedNoMarker) {
   EXPECT_EQ(report["marker"], nullptr);
 }
 
+/// The line of a check's output about a subject, with its remedy.
+std::string FindingOn(const std::string& subject, const std::string& out) {
+  const std::size_t at = out.find(subject + ": ");
+  return at == std::string::npos ? "" : out.substr(at, out.find("\n", out.find('\n', at) + 1) - at);
+}
+
+TEST(Trajectory, CheckSaysWhetherItFitsTheFilm) {
+  const TemporaryFolder folder;
+  WriteWalk(folder / "site", {2, 7});
+  WriteFile(folder / "site/walk.tum", WalkAsTum(0.0));
+  const std::string scene = ReadFile(folder / "site/scene.toml");
+  const auto finding = [&](const std::string& keys) {
+    WriteFile(folder / "site/scene.toml", scene + "[trajectory]\n" + keys);
+    return FindingOn("trajectory", RunPleinair({"check", folder / "site"}).out);
+  };
+  EXPECT_THAT(finding("file = \"walk.tum\"\n"), HasSubstr("good: it has the pose of 12 of 12"));
+  EXPECT_THAT(finding("file = \"walk.tum\"\noffset_s = 60\n"), HasSubstr("bad: "));
+  WriteFile(folder / "site/scene.toml", scene + "[trajectory]\nfile = \"none.tum\"\n");
+  ExpectRefused(RunPleinair({"check", folder / "site"}), "none.tum");
+}
+
 /// One walk for all refusals.
 class TrajectoryRefusal : public testing::TestWithParam<Refusal> {
  protected:

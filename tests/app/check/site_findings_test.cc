@@ -61,6 +61,40 @@ TEST(JudgeSite, WithoutAMarkerNoPictureIsRight) {
             SiteVerdict::kDoubtful);
 }
 
+TEST(JudgeSite, ATrajectoryMakesUpForFramesWithoutTheMarker) {
+  const auto along = [](std::int64_t covered, const auto& change) {
+    return [covered, change](SiteFacts* site) {
+      site->frames.resize(2);
+      site->with_pose = covered;
+      site->trajectory.emplace();
+      session::TrajectorySummary& summary = *site->trajectory->summary;
+      summary.frames.by_trajectory = covered;
+      summary.alignment.used = 2;
+      summary.alignment.chi2_per_dof = 1.0;
+      change(&*site->trajectory);
+    };
+  };
+  const auto as_it_is = [](TrajectoryFit*) {};
+  EXPECT_EQ(VerdictOn("trajectory", along(10, as_it_is)), SiteVerdict::kGood);
+  EXPECT_EQ(VerdictOn("marker", along(10, as_it_is)), SiteVerdict::kGood);
+  EXPECT_EQ(VerdictOn("trajectory", along(8, as_it_is)), SiteVerdict::kDoubtful);
+  EXPECT_EQ(VerdictOn("marker", along(8, as_it_is)), SiteVerdict::kDoubtful);
+  EXPECT_EQ(
+      VerdictOn("trajectory",
+                along(10, [](TrajectoryFit* fit) { fit->summary->alignment.chi2_per_dof = 20.0; })),
+      SiteVerdict::kDoubtful);
+  EXPECT_EQ(VerdictOn("trajectory",
+                      along(10, [](TrajectoryFit* fit) { fit->summary->tilt = Radians(1.5); })),
+            SiteVerdict::kDoubtful);
+  EXPECT_EQ(VerdictOn("trajectory", along(2,
+                                          [](TrajectoryFit* fit) {
+                                            fit->summary = InputError("f", "lacks poses", "look");
+                                          })),
+            SiteVerdict::kBad);
+  EXPECT_EQ(VerdictOn("trajectory", along(0, [](TrajectoryFit* fit) { fit->has_marker = false; })),
+            SiteVerdict::kUnknown);
+}
+
 TEST(JudgeSite, SmallAmbiguousAndBlurredMarkersAreNamed) {
   const auto edge = [](double edge_px) {
     return [edge_px](SiteFacts* site) {
