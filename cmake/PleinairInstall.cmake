@@ -61,7 +61,7 @@ set(pleinair_libs export session compositor leaf shadows gl tracker devices cali
 list(TRANSFORM pleinair_libs PREPEND "-lpleinair_")
 list(JOIN pleinair_libs " " PLEINAIR_PC_LIBS)
 set(PLEINAIR_PC_REQUIRES "erfa epoxy egl yaml-cpp zlib libpng libjpeg libhwy fmt OpenEXR")
-string(APPEND PLEINAIR_PC_REQUIRES " libavformat libavcodec libavutil libswscale libexif geographiclib")
+string(APPEND PLEINAIR_PC_REQUIRES " libavformat libavcodec libavutil libswscale libexif libzip geographiclib")
 foreach(library meshoptimizer:MESHOPT draco:DRACO webp:WEBP)
   string(REPLACE ":" ";" library ${library})
   list(GET library 0 name)

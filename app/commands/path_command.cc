@@ -21,7 +21,7 @@ constexpr const char* kPathExamples =
     "    --extrinsics mav0/cam0/sensor.yaml\n"
     "  pleinair path convert sparse/0 text/ --frame-rate 30\n"
     "  pleinair path convert sparse/0 walk.glb --frame-rate 30 --axes y-down --scale 0.42\n"
-    "  pleinair path convert scan/ walk.tum   (Stray Scanner: odometry.csv; Record3D: metadata)\n"
+    "  pleinair path convert scan/ walk.tum   (Stray Scanner: odometry.csv; Record3D: walk.r3d)\n"
     "Read: TUM (.tum, .txt), EuRoC (.csv), COLMAP (a folder with cameras and images, .txt or "
     ".bin), Stray Scanner, Record3D.\n"
     "Written: TUM, EuRoC, COLMAP as text or, with --to colmap-binary, as .bin; glTF (.glb, .gltf) "

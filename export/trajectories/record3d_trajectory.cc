@@ -90,7 +90,7 @@ Result<CameraTrajectory> ParseRecord3dMetadata(std::string_view text, const std:
   const Json metadata = Json::parse(text, nullptr, false);
   if (!metadata.is_object()) {
     return InputError(name, "is not a JSON object, as the metadata of Record3D is",
-                      "get a whole copy of it from the .r3d archive (unzip walk.r3d metadata)");
+                      "name the .r3d archive that the app shares, or a whole copy of its metadata");
   }
   const auto poses = metadata.find("poses");
   if (poses == metadata.end() || !poses->is_array() || poses->empty()) {

@@ -16,6 +16,7 @@
 #include "export/trajectories/euroc_trajectory.h"
 #include "export/trajectories/gltf_trajectory.h"
 #include "export/trajectories/mcap_trajectory.h"
+#include "export/trajectories/record3d_archive.h"
 #include "export/trajectories/record3d_trajectory.h"
 #include "export/trajectories/stray_trajectory.h"
 #include "export/trajectories/tum_trajectory.h"
@@ -30,6 +31,7 @@ constexpr std::size_t kMaxBytes = std::size_t{1} << 30;
 /// An hour at 60 Hz has some 100 MB. The parsed JSON takes several times as much memory.
 constexpr std::size_t kMaxMetadataBytes = std::size_t{1} << 28;
 constexpr const char* kStrayFile = "odometry.csv";
+constexpr const char* kArchiveExtension = ".r3d";
 constexpr std::array<const char*, 2> kRecord3dFiles{"metadata", "metadata.json"};
 
 std::string LowerExtension(const fs::path& file) {
@@ -56,6 +58,16 @@ std::optional<fs::path> Record3dFileIn(const fs::path& folder) {
     if (fs::is_regular_file(folder / name, error)) return folder / name;
   }
   return std::nullopt;
+}
+
+/// Reads an .r3d archive, its metadata, or the folder of either.
+Result<CameraTrajectory> ReadRecord3d(const fs::path& named) {
+  const fs::path metadata = Record3dFileIn(named).value_or(named);
+  const bool is_archive = IsZipArchive(metadata) || LowerExtension(metadata) == kArchiveExtension;
+  PLEINAIR_ASSIGN_OR_RETURN(const std::string json,
+                            is_archive ? ReadRecord3dArchive(metadata)
+                                       : files::ReadWholeFile(metadata, kMaxMetadataBytes));
+  return ParseRecord3dMetadata(json, metadata.string());
 }
 
 /// Reads odometry.csv, and the camera_matrix.csv beside it if there is one.
@@ -99,7 +111,9 @@ Result<TrajectoryFormat> TrajectoryFormatOf(const fs::path& file) {
   std::error_code error;
   const std::string extension = LowerExtension(file);
   if (fs::exists(file / kStrayFile, error)) return TrajectoryFormat::kStray;
-  if (Record3dFileIn(file) || extension == ".json") return TrajectoryFormat::kRecord3d;
+  if (Record3dFileIn(file) || extension == ".json" || extension == kArchiveExtension) {
+    return TrajectoryFormat::kRecord3d;
+  }
   if (fs::is_regular_file(file, error) && file.filename() == kRecord3dFiles[0]) {
     return TrajectoryFormat::kRecord3d;
   }
@@ -111,7 +125,7 @@ Result<TrajectoryFormat> TrajectoryFormatOf(const fs::path& file) {
   if (extension == ".mcap") return TrajectoryFormat::kMcap;
   return InputError(
       file.string(), "has a name without a known trajectory format",
-      "name it .tum, .csv, .json, .glb, .gltf or .mcap or a folder, or state its format");
+      "name it .tum, .csv, .r3d, .json, .glb, .gltf or .mcap or a folder, or state its format");
 }
 
 Result<CameraTrajectory> ReadTrajectory(const fs::path& file, TrajectoryFormat format,
@@ -131,12 +145,7 @@ Result<CameraTrajectory> ReadTrajectory(const fs::path& file, TrajectoryFormat f
     return TrajectoryFromColmap(std::move(model), options.frame_rate_hz);
   }
   if (format == TrajectoryFormat::kStray) return ReadStray(file);
-  if (format == TrajectoryFormat::kRecord3d) {
-    const fs::path metadata = Record3dFileIn(file).value_or(file);
-    PLEINAIR_ASSIGN_OR_RETURN(const std::string json,
-                              files::ReadWholeFile(metadata, kMaxMetadataBytes));
-    return ParseRecord3dMetadata(json, metadata.string());
-  }
+  if (format == TrajectoryFormat::kRecord3d) return ReadRecord3d(file);
   PLEINAIR_ASSIGN_OR_RETURN(const std::string text, files::ReadWholeFile(file, kMaxBytes));
   if (format == TrajectoryFormat::kTum) return ParseTum(text, file.string());
   return ParseEurocTrajectory(text, file.string(), options.body_from_camera);

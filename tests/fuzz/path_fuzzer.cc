@@ -11,6 +11,7 @@
 #include "export/trajectories/colmap_text.h"
 #include "export/trajectories/euroc_trajectory.h"
 #include "export/trajectories/place_pairs.h"
+#include "export/trajectories/record3d_archive.h"
 #include "export/trajectories/record3d_trajectory.h"
 #include "export/trajectories/stray_trajectory.h"
 #include "export/trajectories/tum_trajectory.h"
@@ -64,6 +65,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       mounting.value_or(pleinair::Transform<pleinair::devices::EurocBody, pleinair::Camera>{})));
   Check(pleinair::exports::ParseStrayOdometry(text, "file"));
   Check(pleinair::exports::ParseRecord3dMetadata(text, "file"));
+  if (const auto json = pleinair::exports::ParseRecord3dArchive(text, "file")) {
+    Check(pleinair::exports::ParseRecord3dMetadata(*json, "file"));
+  } else if (json.error().what.empty()) {
+    std::abort();
+  }
   if (const auto lens = pleinair::exports::ParseStrayCamera(text, "file"); lens && *lens) {
     if (!((*lens)->fx > 0.0 && std::isfinite((*lens)->cx))) std::abort();
   }
