@@ -1,6 +1,7 @@
 #include "session/anchor_follower.h"
 
 #include <bit>
+#include <chrono>
 #include <utility>
 
 #include "session/anchors.h"
@@ -13,12 +14,14 @@ constexpr std::size_t kMaxSharedFrames = 64;
 
 }  // namespace
 
-AnchorFollower::AnchorFollower(const CameraModel& camera, const scene::SceneDescription& scene)
+AnchorFollower::AnchorFollower(const CameraModel& camera, const scene::SceneDescription& scene,
+                               bool in_background)
     : camera_(camera),
       names_{{scene.marker.family.value_or(kSgFamily), scene.marker.id.value_or(0)}},
       described_(DescribedAnchors(scene)),
       placed_(described_),
-      shared_frames_(described_.size(), 0) {
+      shared_frames_(described_.size(), 0),
+      in_background_(in_background) {
   for (const scene::AnchorDescription& anchor : scene.anchors) names_.push_back(NameOf(anchor));
 }
 
@@ -31,23 +34,35 @@ std::optional<Observation> AnchorFollower::Add(const MarkerTracks& tracks,
     AddToView(i, track.back(), &view);
   }
   if (view.markers.empty()) return std::nullopt;
-  Place(view.markers);
+  Keep(view.markers);
+  Place();
   return ObservationBy(camera_, placed_, std::move(view));
 }
 
-void AnchorFollower::Place(const tracker::AnchorFrame& frame) {
+void AnchorFollower::Keep(const tracker::AnchorFrame& frame) {
   if (frame.size() < 2) return;
-  bool is_kept = false, is_doubled = false;
+  bool is_kept = false;
   for (const tracker::AnchorSighting& sighting : frame) {
     std::size_t& count = shared_frames_[sighting.marker];
     if (described_[sighting.marker].reference_from_marker || count >= kMaxSharedFrames) continue;
     is_kept = true;
-    is_doubled = std::has_single_bit(++count) || is_doubled;
+    is_due_ = std::has_single_bit(++count) || is_due_;
   }
   if (is_kept) shared_.push_back(frame);
-  if (!is_doubled) return;
-  placed_ = described_;
-  tracker::PlaceAnchorMarkers(camera_, shared_, &placed_);
+}
+
+void AnchorFollower::Place() {
+  if (placing_.valid() && placing_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
+    placed_ = placing_.get();
+  }
+  if (!is_due_ || placing_.valid()) return;
+  is_due_ = false;
+  placing_ = std::async(in_background_ ? std::launch::async : std::launch::deferred,
+                        [camera = camera_, shared = shared_, placed = described_]() mutable {
+                          tracker::PlaceAnchorMarkers(camera, shared, &placed);
+                          return placed;
+                        });
+  if (!in_background_) placed_ = placing_.get();
 }
 
 }  // namespace pleinair::session

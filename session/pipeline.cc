@@ -23,7 +23,9 @@ Pipeline::Pipeline(const CameraModel& camera, const scene::SceneDescription& sce
       hands_in_front_(options.light.hands_in_front),
       follows_light_(options.light.changes == LightChangeMode::kFollow),
       kept_observations_(options.kept_observations),
-      tracks_(scene.marker) {}
+      tracks_(scene.marker) {
+  by_anchors_.places_in_background = options.places_anchors_in_background;
+}
 
 Pipeline::~Pipeline() = default;
 
@@ -126,7 +128,8 @@ std::optional<CameraPose> Pipeline::PoseIn(const devices::Frame& last_tracked) c
 std::optional<CameraPose> Pipeline::FollowIn(const devices::Frame& last_tracked) {
   if (scene_.anchors.empty()) return PoseIn(last_tracked);
   if (!by_anchors_.follower) {
-    by_anchors_.follower = std::make_unique<AnchorFollower>(camera_, scene_);
+    by_anchors_.follower =
+        std::make_unique<AnchorFollower>(camera_, scene_, by_anchors_.places_in_background);
   }
   auto seen = by_anchors_.follower->Add(tracks_, last_tracked.index);
   if (!seen) return std::nullopt;

@@ -44,6 +44,9 @@ struct PipelineOptions {
   bool refine_markers = true;
   /// How many observations of each marker are kept, for sessions without an end; nothing: all.
   std::optional<std::size_t> kept_observations{};
+  /// Whether FollowIn() places anchors on another thread and goes on with their last places
+  /// meanwhile (AnchorFollower). If false, it waits, so that equal frames give equal poses.
+  bool places_anchors_in_background = false;
 };
 
 /// A frame whose markers are detected, but whose poses are not estimated yet.
@@ -191,6 +194,7 @@ class Pipeline {
   struct ByAnchors {
     AnchoredPath path;
     std::unique_ptr<AnchorFollower> follower;
+    bool places_in_background = false;
   };
 
   CameraModel camera_, output_camera_;  // Lenses of frames and of composed images.

@@ -44,6 +44,7 @@ Result<void> LiveSession::Prepare() {
   session::PipelineOptions pipeline{.composer = options_.composer, .light = options_.light};
   pipeline.refine_markers = options_.lossless || options_.output;
   if (!options_.lossless) pipeline.kept_observations = kObservationsKept;
+  pipeline.places_anchors_in_background = !options_.lossless;
   PLEINAIR_ASSIGN_OR_RETURN(pipeline_,
                             session::Pipeline::Create(options_.camera, options_.scene, pipeline));
   PLEINAIR_ASSIGN_OR_RETURN(sightings_, SightingFiles::Create(options_.detections, options_.output,

@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <functional>
 #include <numbers>
+#include <optional>
 #include <random>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -206,6 +209,33 @@ TEST(Anchors, TheObjectStaysWhileAFilmIsStillGoingOn) {
     EXPECT_TRUE(at.source == PoseSource::kMarker || at.visibility_side == 0);
   }
   ExpectTheObjectStays(path, place);
+}
+
+TEST(Anchors, ArePlacedInTheBackgroundAsTheyAreAtOnce) {
+  const Place place;
+  const scene::SceneDescription scene = SceneOf(place);
+  AnchorFollower waiting(PhoneLens(), scene), background(PhoneLens(), scene, true);
+  std::optional<Observation> wanted, seen;
+  int without = 0;
+  Film(
+      place, scene, 1.0,
+      [](double t_s) {
+        return Cover{t_s > 0.7, false};
+      },
+      [&](const MarkerTracks& tracks, int frame) {
+        wanted = waiting.Add(tracks, frame);
+        seen = background.Add(tracks, frame);
+        // A frame that comes before the first place is known has no pose.
+        for (; !seen && without < 10'000; ++without) {
+          std::this_thread::sleep_for(std::chrono::milliseconds(1));
+          seen = background.Add(tracks, frame);
+        }
+      });
+  ASSERT_TRUE(wanted && seen);
+  EXPECT_EQ(seen->source, PoseSource::kAnchors);
+  // Both have placed the anchor, by other numbers of frames.
+  EXPECT_LT(Norm(seen->camera_from_marker.translation_m - wanted->camera_from_marker.translation_m),
+            0.005);
 }
 
 TEST(Anchors, AnAnchorThatWasNeverSeenBesideTheMarkerGivesNoPoseLive) {
