@@ -44,7 +44,7 @@ std::string Comment(std::string text) {
 }
 
 std::string Line(const std::string& assignment, const std::string& from) {
-  return fmt::format("{:<34}# {}\n", assignment, Comment(from));
+  return fmt::format("{:<33} # {}\n", assignment, Comment(from));
 }
 
 std::string MarkerText(const NewScene& scene) {
