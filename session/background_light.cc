@@ -7,6 +7,7 @@
 #include "scene/marker_heading.h"
 #include "scene/sun_over_place.h"
 #include "session/following/low_priority.h"
+#include "session/scene_light.h"
 #include "session/scene_renderer.h"
 
 namespace pleinair::session {
@@ -40,7 +41,7 @@ BackgroundLight::BackgroundLight(Setup setup)
 
 Result<std::unique_ptr<BackgroundLight>> BackgroundLight::Create(Setup setup) {
   std::unique_ptr<BackgroundLight> light(new BackgroundLight(std::move(setup)));
-  PLEINAIR_RETURN_IF_ERROR(light->Place(light->setup_.edit));
+  PLEINAIR_RETURN_IF_ERROR(light->Place(light->setup_.edit, false));
   light->Make(light->shared_.wanted, light->placed_.solver->WithRays(kDraftRays));
   light->made_.wanted.reset();  // A better one is wanted.
   light->thread_ = std::thread([self = light.get()] { self->Run(); });
@@ -108,8 +109,8 @@ void BackgroundLight::Run() {
       shown = std::exchange(shared_.shown, std::nullopt);
     }
     TakeCoefficients(worker);
-    PlaceIfPossible(&wanted.edit);
-    if (NeedsLight(wanted)) Make(wanted, placed_.solver);
+    PlaceIfPossible(&wanted);
+    if (NeedsLight(wanted) && !IsSuperseded(wanted)) Make(wanted, placed_.solver);
     if (shown) EstimateLight(*shown, wanted);
     if (placed_.ordered_for != placed_.solver || wanted.edit.convergence != placed_.convergence) {
       WantCoefficients(wanted, &worker);
@@ -118,26 +119,33 @@ void BackgroundLight::Run() {
 }
 
 /// Follows the placements of an edit. Those that cannot be lit are replaced in the edit by the last
-/// ones that could.
-void BackgroundLight::PlaceIfPossible(SceneEdit* edit) {
-  if (edit->objects == placed_.objects && edit->phantoms == placed_.phantoms) return;
-  const bool refused = placed_.refused && edit->objects == placed_.refused->objects &&
-                       edit->phantoms == placed_.refused->phantoms;
-  if (!refused && Place(*edit)) return;
-  if (!refused) placed_.refused = *edit;
-  edit->objects = placed_.objects;
-  edit->phantoms = placed_.phantoms;
+/// ones that could. Moved surfaces get a draft, so that they follow the mouse: with the next light
+/// they hide objects where they now are.
+void BackgroundLight::PlaceIfPossible(Wanted* wanted) {
+  SceneEdit& edit = wanted->edit;
+  const bool moves_surfaces = edit.phantoms != placed_.phantoms;
+  if (edit.objects == placed_.objects && !moves_surfaces) return;
+  const bool refused = placed_.refused && edit.objects == placed_.refused->objects &&
+                       edit.phantoms == placed_.refused->phantoms;
+  if (!refused && Place(edit, moves_surfaces)) {
+    if (moves_surfaces) Make(*wanted, placed_.solver->WithRays(kDraftRays));
+    made_.wanted.reset();  // A better one is wanted.
+    return;
+  }
+  if (!refused) placed_.refused = edit;
+  edit.objects = placed_.objects;
+  edit.phantoms = placed_.phantoms;
 }
 
 /// Builds a solver for the placements of an edit. After an error all is as before.
-Result<void> BackgroundLight::Place(const SceneEdit& edit) {
+/// `replaces_surfaces`: the described surfaces moved, or have other colors.
+Result<void> BackgroundLight::Place(const SceneEdit& edit, bool replaces_surfaces) {
   std::vector<compositor::PlacedModel> placed = setup_.placed;
   const std::size_t phantoms = placed.size() - edit.objects.size();
   for (std::size_t i = 0; i < edit.objects.size(); ++i) {
     MoveTo(edit.objects[i], &placed[phantoms + i]);
   }
-  const bool moves_phantoms = edit.phantoms != placed_.phantoms;
-  if (moves_phantoms) {
+  if (replaces_surfaces) {
     const scene::SceneDescription scene = WithEdit(setup_.scene, edit);
     for (std::size_t i = 0; i < phantoms; ++i) {
       if (!scene.phantoms[i].surface) continue;
@@ -153,13 +161,20 @@ Result<void> BackgroundLight::Place(const SceneEdit& edit) {
     PLEINAIR_ASSIGN_OR_RETURN(placed_.solver, compositor::LightSolver::Create(placed, options));
   }
   setup_.placed = std::move(placed);
-  if (moves_phantoms) known_.estimator.reset();  // It has seen shadows of other phantoms.
+  if (replaces_surfaces) known_.estimator.reset();  // It has seen shadows of other phantoms.
   placed_.objects = edit.objects;
   placed_.phantoms = edit.phantoms;
   placed_.refused.reset();
   placed_.coefficients.reset();  // They belong to another scene.
   made_.wanted.reset();
   return {};
+}
+
+/// True if the surfaces have moved again meanwhile: their draft comes first.
+bool BackgroundLight::IsSuperseded(const Wanted& wanted) const {
+  const std::lock_guard lock(mutex_);
+  return shared_.wanted.edit.phantoms != wanted.edit.phantoms &&
+         !(placed_.refused && shared_.wanted.edit.phantoms == placed_.refused->phantoms);
 }
 
 bool BackgroundLight::NeedsLight(const Wanted& wanted) const {
@@ -249,16 +264,38 @@ void BackgroundLight::EstimateLight(const Shown& shown, const Wanted& wanted) {
   }
   if (known_.estimator->frames() < kLightFrames) return;
   const compositor::LightEstimate found = known_.estimator->Estimate(&known_.filter);
+  const auto colors =
+      known_.estimator->MeasureColors(found, UncoloredSurfaces(setup_.scene.phantoms));
   known_.estimator.reset();
   known_.found = found.skies;
   if (known_.found.source) UseOverriddenSky(shown.time, &known_.found);
   known_.heading = found.heading;
   made_.wanted.reset();
+  UseColors(colors);
   const std::lock_guard lock(mutex_);
   shared_.progress.measured = found.measured;
   shared_.progress.frames_in_estimate = 0;
   shared_.next_estimate = shown.time.PlusSeconds(kBetweenMeasurements_s);
   shared_.shown.reset();  // It arrived meanwhile, and would start the next estimate too early.
+}
+
+/// Gives described surfaces their measured colors. Where such a scene cannot be lit, the last
+/// stays.
+void BackgroundLight::UseColors(const std::map<int, compositor::SurfaceColor>& colors) {
+  bool is_new = false;
+  for (const auto& [index, color] : colors) {
+    if (color.outcome != compositor::SurfaceColor::Outcome::kMeasured) continue;
+    scene::DescribedSurface& surface =
+        *setup_.scene.phantoms[static_cast<std::size_t>(index)].surface;
+    surface.reflectance = color.reflectance;
+    surface.has_color = true;
+    is_new = true;
+  }
+  if (!is_new) return;
+  SceneEdit edit = setup_.edit;
+  edit.objects = placed_.objects;
+  edit.phantoms = placed_.phantoms;
+  static_cast<void>(Place(edit, true));
 }
 
 void BackgroundLight::WantCoefficients(const Wanted& wanted,

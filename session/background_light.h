@@ -2,6 +2,7 @@
 
 #include <condition_variable>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -16,6 +17,7 @@
 #include "compositor/photometry/light_filter.h"
 #include "compositor/photometry/measured_light.h"
 #include "compositor/photometry/sky_state.h"
+#include "compositor/photometry/surface_colors.h"
 #include "devices/frame_source.h"
 #include "scene/scene_description.h"
 #include "session/baked_lighting.h"
@@ -31,9 +33,11 @@ namespace pleinair::session {
 /// of sun and sky. The first light is a draft with very few rays, so that the first frame need not
 /// wait. The next ones are traced with few rays. Meanwhile daylight coefficients are computed; with
 /// them each further light takes a fraction of a second. A moved object restarts this, and is drawn
-/// with the last light until its next light is ready. A moved phantom changes with its next light.
+/// with the last light until its next light is ready. A moved phantom changes with its next light, a draft while it is
+/// dragged.
 /// Afterwards the phantoms' shadows in the frames are used to estimate the light, as in replay,
-/// once a minute. LightFilter combines these estimates.
+/// once a minute. LightFilter combines these estimates. The first that shows the color of a
+/// described surface without one gives it; it stays for the session.
 class BackgroundLight {
  public:
   struct Setup {
@@ -95,8 +99,10 @@ class BackgroundLight {
 
   explicit BackgroundLight(Setup setup);
   void Run();
-  void PlaceIfPossible(SceneEdit* edit);
-  Result<void> Place(const SceneEdit& edit);
+  void PlaceIfPossible(Wanted* wanted);
+  bool IsSuperseded(const Wanted& wanted) const;
+  Result<void> Place(const SceneEdit& edit, bool replaces_surfaces);
+  void UseColors(const std::map<int, compositor::SurfaceColor>& colors);
   void Make(const Wanted& wanted, std::shared_ptr<const compositor::LightSolver> solver);
   bool NeedsLight(const Wanted& wanted) const;
   void EstimateLight(const Shown& shown, const Wanted& wanted);
@@ -142,7 +148,7 @@ class BackgroundLight {
     Progress progress{};
   };
 
-  Setup setup_;  // Its model positions follow the edits.
+  Setup setup_;  // Its model positions follow the edits, its colors the frames.
   std::thread thread_;
 
   // Used by the thread alone.

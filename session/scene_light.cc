@@ -10,6 +10,15 @@
 
 namespace pleinair::session {
 
+std::set<int> UncoloredSurfaces(const std::vector<scene::ModelReference>& phantoms) {
+  std::set<int> uncolored;
+  for (std::size_t i = 0; i < phantoms.size(); ++i) {
+    const auto& surface = phantoms[i].surface;
+    if (surface && !surface->has_color) uncolored.insert(static_cast<int>(i));
+  }
+  return uncolored;
+}
+
 SceneLight::SceneLight(std::shared_ptr<const compositor::LightSolver> solver,
                        const scene::SceneDescription& scene, const LightOptions& options)
     : solver_(std::move(solver)), options_(options) {

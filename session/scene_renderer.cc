@@ -175,12 +175,7 @@ Result<void> SceneRenderer::EstimateResponse(const std::set<std::int64_t>& frame
 
 Result<void> SceneRenderer::EstimateLight() {
   if (!light_) return {};
-  std::set<int> uncolored;
-  for (std::size_t i = 0; i < scene_.phantoms.size(); ++i) {
-    const auto& surface = scene_.phantoms[i].surface;
-    if (surface && !surface->has_color) uncolored.insert(static_cast<int>(i));
-  }
-  const auto found = light_->Conclude(uncolored);
+  const auto found = light_->Conclude(UncoloredSurfaces(scene_.phantoms));
   if (!found) return {};
   summary_.measured = found->light.measured;
   scene_.marker.heading = found->light.heading;

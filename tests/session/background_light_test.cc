@@ -235,13 +235,14 @@ TEST(BackgroundLight, KeepsTheCoefficientsOfTheSceneAsItBeganAlone) {
 /// Live light in front of a photographed yard with a small object at its edge.
 class LiveYard {
  public:
-  /// `off_deg`: error of the described heading.
-  explicit LiveYard(double off_deg) {
+  /// `off_deg`: error of the described heading. `ground`: in place of a model; null: the model.
+  explicit LiveYard(double off_deg, const scene::DescribedSurface* ground = nullptr) {
     BackgroundLight::Setup setup;
     setup.camera = yard_.camera();
     setup.scene = tests::YardScene(yard_, off_deg, time_);
     setup.placed = PhotographedYard::Phantoms();
     setup.scene.phantoms.resize(setup.placed.size());
+    if (ground != nullptr) setup.scene.phantoms[0].surface = *ground;
     setup.scene.objects.emplace_back();
     setup.placed.push_back(compositor::testing::Object(
         compositor::testing::BoxModel({2.4, -2.5, 0.0}, {2.5, -2.4, 0.1}, {0.5F, 0.5F, 0.5F})));
@@ -282,6 +283,19 @@ class LiveYard {
   UtcTime asked_for_ = time_;
   std::unique_ptr<BackgroundLight> light_;
 };
+
+TEST(BackgroundLight, MeasuresTheColorOfGroundWithoutOne) {
+  scene::DescribedSurface ground = scene::GroundSurface(10.0, 0.0, false);
+  ASSERT_FALSE(ground.has_color);
+  ground.reflectance = {0.1, 0.2, 0.5};
+  LiveYard live(0.0, &ground);
+  const auto lit = live.LookAt(live.yard().Photograph(0, {.colors_as_described = true}));
+  ASSERT_TRUE(lit->meshes.at(0).is_phantom);
+  const auto& measured = lit->meshes.at(0).texturing.reflectance;
+  EXPECT_NEAR(measured[0], 0.35, 0.035);
+  EXPECT_NEAR(measured[1], 0.33, 0.033);
+  EXPECT_NEAR(measured[2], 0.30, 0.030);
+}
 
 TEST(BackgroundLight, KeepsWhatFramesToldWhenTheNextOnesTellNothing) {
   constexpr double kOffDeg = 3.0;
