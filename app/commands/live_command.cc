@@ -110,6 +110,7 @@ Result<RgbImage> DrawAll(LiveSession& session, const LiveSource& source,
       break;
     }
     ReportEvents(source.camera, arguments.json);
+    ReportNews(source.trajectory.get(), arguments.json);
     if (const auto interval = report->Poll(session)) Report(*interval, arguments.json);
     PLEINAIR_ASSIGN_OR_RETURN(auto drawn, session.Draw(std::chrono::milliseconds(50)));
     if (!drawn) continue;
@@ -139,7 +140,9 @@ Result<RgbImage> ShowAll([[maybe_unused]] LiveSession& session, [[maybe_unused]]
   options.screenshots = arguments.window.screenshots;
   options.poll_camera = [&] {
     if (const auto interval = report->Poll(session)) Report(*interval, arguments.json);
-    return ReportEvents(source.camera, arguments.json);
+    const std::string news = ReportNews(source.trajectory.get(), arguments.json);
+    std::string event = ReportEvents(source.camera, arguments.json);
+    return event.empty() ? news : event;
   };
   options.width = window.width;
   options.height = window.height;
@@ -204,8 +207,9 @@ Result<void> RunLive(const CLI::App& command, const LiveArguments& arguments) {
     }
   }
   if (source.camera != nullptr) {
-    options.stop_source = [camera = source.camera] { camera->Stop(); };
+    options.source.stop = [camera = source.camera] { camera->Stop(); };
   }
+  options.source.trajectory = source.trajectory;
   const InterruptGuard guard;
   PLEINAIR_ASSIGN_OR_RETURN(auto session,
                             LiveSession::Create(std::move(source.frames), std::move(options)));
@@ -214,6 +218,7 @@ Result<void> RunLive(const CLI::App& command, const LiveArguments& arguments) {
                   ? DrawAll(*session, source, arguments, &report)
                   : ShowAll(*session, window, source, arguments, scene, &scene_file, &report);
   ReportEvents(source.camera, arguments.json);
+  ReportNews(source.trajectory.get(), arguments.json);
   ReportControls(source.camera);
   session->Stop();
   if (const auto interval = report.Finish(*session)) Report(*interval, arguments.json);

@@ -86,6 +86,18 @@ std::string ReportEvents(devices::LiveCamera* camera, bool json) {
   return last;
 }
 
+std::string ReportNews(LiveTrajectory* trajectory, bool json) {
+  const auto news = trajectory == nullptr ? std::nullopt : trajectory->TakeNews();
+  if (!news) return "";
+  if (json) {
+    const nlohmann::json line{{"trajectory", *news}};
+    std::cout << line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) << std::endl;
+  } else {
+    std::cerr << *news << '\n';
+  }
+  return *news;
+}
+
 void ReportControls(const devices::LiveCamera* camera) {
   if (camera == nullptr) return;
   for (const devices::ControlResult& result : camera->ControlResults()) {

@@ -4,6 +4,7 @@
 
 #include "app/live/live_report.h"
 #include "app/live/live_statistics.h"
+#include "app/live/live_trajectory.h"
 
 namespace pleinair::devices {
 class LiveCamera;
@@ -16,6 +17,10 @@ namespace pleinair::app {
 /// Reports the camera events since the last call and returns the last one as text. Does nothing if
 /// `camera` is null.
 std::string ReportEvents(devices::LiveCamera* camera, bool json);
+
+/// Reports how the scene's trajectory is aligned, once that is known, and returns it as text. Does
+/// nothing if `trajectory` is null.
+std::string ReportNews(LiveTrajectory* trajectory, bool json);
 
 /// Reports the result of each requested camera control.
 void ReportControls(const devices::LiveCamera* camera);

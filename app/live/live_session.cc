@@ -53,6 +53,7 @@ Result<void> LiveSession::Prepare() {
   if (!options_.lossless && renderer.DrawsObjects()) {
     scene_.StartFollowing(options_.camera, options_.light, renderer.response());
   }
+  if (options_.lossless && options_.source.trajectory) options_.source.trajectory->Wait();
   threads_.emplace_back([this] { Capture(); });
   threads_.emplace_back([this] { Track(); });
   // The first frame is tracked meanwhile.
@@ -65,7 +66,7 @@ LiveSession::~LiveSession() { Stop(); }
 
 void LiveSession::Stop() {
   end_.Stop();
-  if (options_.stop_source) options_.stop_source();
+  if (options_.source.stop) options_.source.stop();
   captured_.Close();
   tracked_.Close();
   for (std::thread& thread : threads_) {
@@ -141,7 +142,8 @@ Result<LiveSession::Tracked> LiveSession::TrackOne(FramePtr frame) {
   PLEINAIR_RETURN_IF_ERROR(
       sightings_.Add(tracked, tracks, frame->index, clock_.SinceFirst_ns(frame->timestamp_ns)));
   std::optional<session::CameraPose> pose = pipeline_->FollowIn(*frame);
-  if (pose && pose->observation.source == session::PoseSource::kMarker) {
+  if (options_.source.trajectory) pose = options_.source.trajectory->PoseIn(*frame, pose);
+  if (pose && session::ShowsReferenceMarker(pose->observation)) {
     scene_.Follow(frame, pose->observation.camera_from_marker,
                   session::MarkerReflectanceOf(options_.scene.marker, pose->marker));
   }
@@ -176,7 +178,7 @@ Result<std::optional<DrawnFrame>> LiveSession::DrawOne(Tracked tracked) {
   if (tracked.pose) {
     drawn.camera_from_marker = tracked.pose->observation.camera_from_marker;
     // Without the marker there is no exposure to compare shadows with.
-    if (tracked.pose->observation.source == session::PoseSource::kMarker) {
+    if (session::ShowsReferenceMarker(tracked.pose->observation)) {
       scene_.Show(tracked.frame, *drawn.camera_from_marker, moment);
     }
   }

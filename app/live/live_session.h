@@ -14,6 +14,7 @@
 #include "app/live/live_output.h"
 #include "app/live/live_scene.h"
 #include "app/live/live_statistics.h"
+#include "app/live/live_trajectory.h"
 #include "app/live/recording_switch.h"
 #include "app/live/session_end.h"
 #include "app/live/sighting_files.h"
@@ -48,8 +49,11 @@ struct LiveOptions {
   std::optional<LiveOutput::Options> output;
   /// If true, another component shows the frames and calls Shown(). Latency then ends at that call.
   bool shown_elsewhere = false;
-  /// Ends the source's wait. Called from another thread.
-  std::function<void()> stop_source;
+  /// The source beside its frames.
+  struct Source {
+    std::function<void()> stop{};                  ///< Ends its wait. Called from another thread.
+    std::shared_ptr<LiveTrajectory> trajectory{};  ///< Null: the marker alone gives poses.
+  } source{};
 };
 
 /// A composited frame.

@@ -1,10 +1,12 @@
 #include "app/live/live_source.h"
 
+#include <cstdint>
 #include <utility>
 #include <vector>
 
 #include "app/live/paced_recording.h"
 #include "app/options/local_time.h"
+#include "app/replay/given_trajectory.h"
 #include "devices/calibration/calibration.h"
 #include "devices/recordings/recording.h"
 
@@ -36,14 +38,24 @@ Result<LiveSource> OpenFile(const devices::CameraUri& uri, const LiveArguments& 
   }
   LiveSource source{std::move(recording.frames), nullptr, recording.camera, recording.scene,
                     devices::ResponseOf(recording.curve)};
+  const auto open = [path = uri.value, options] { return devices::OpenRecording(path, options); };
+  if (source.scene && source.scene->trajectory) {
+    PLEINAIR_ASSIGN_OR_RETURN(auto request, ReadGivenTrajectory(*source.scene->trajectory));
+    source.trajectory = std::make_shared<LiveTrajectory>(std::move(request), *source.scene, open);
+  }
   if (arguments.lossless) return source;
-  const auto reopen = [path = uri.value,
-                       options]() -> Result<std::unique_ptr<devices::FrameSource>> {
-    PLEINAIR_ASSIGN_OR_RETURN(devices::Recording again, devices::OpenRecording(path, options));
+  const auto reopen = [open]() -> Result<std::unique_ptr<devices::FrameSource>> {
+    PLEINAIR_ASSIGN_OR_RETURN(devices::Recording again, open());
     return std::move(again.frames);
   };
-  PLEINAIR_ASSIGN_OR_RETURN(
-      source.frames, PacedRecording::Open(reopen, {arguments.input.rate_hz, arguments.input.loop}));
+  PacedRecording::Options pace{arguments.input.rate_hz, arguments.input.loop};
+  if (source.trajectory) {
+    pace.played = [trajectory = source.trajectory](std::int64_t index,
+                                                   const devices::Frame& recorded) {
+      trajectory->Played(index, {recorded.index, recorded.timestamp_ns});
+    };
+  }
+  PLEINAIR_ASSIGN_OR_RETURN(source.frames, PacedRecording::Open(reopen, pace));
   return source;
 }
 
@@ -59,6 +71,11 @@ Result<LiveSource> OpenCamera(const devices::CameraUri& uri, const LiveArguments
   PLEINAIR_ASSIGN_OR_RETURN(source.lens, devices::ReadCalibration(arguments.input.calibration));
   if (!arguments.input.scene.empty()) {
     PLEINAIR_ASSIGN_OR_RETURN(source.scene, scene::ReadSceneDescription(arguments.input.scene));
+    if (source.scene->trajectory) {
+      return InputError(arguments.input.scene,
+                        "has a [trajectory], which belongs to a recording, not to a camera",
+                        "play the recording (--camera file:PATH), or take [trajectory] out");
+    }
   }
   devices::LiveCameraOptions options;
   options.uri = uri;

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "app/live/live_arguments.h"
+#include "app/live/live_trajectory.h"
 #include "base/camera_model.h"
 #include "base/camera_response.h"
 #include "base/error.h"
@@ -21,11 +22,12 @@ struct LiveSource {
   devices::LiveCamera* camera = nullptr;  ///< Null for a recording.
   CameraModel lens;
   std::optional<scene::SceneDescription> scene;
-  CameraResponse response = {};  ///< By a film's tags.
+  CameraResponse response = {};                  ///< By a film's tags.
+  std::shared_ptr<LiveTrajectory> trajectory{};  ///< Of the scene; null without one.
 };
 
 /// Opens the camera, or the recording that is played at its pace. Errors: those of recording, lens
-/// and scene; options that do not fit the source.
+/// and scene; options that do not fit the source. Also a scene with a trajectory, for a camera.
 Result<LiveSource> OpenLiveSource(const devices::CameraUri& uri, const LiveArguments& arguments);
 
 /// Returns the time of the first frame, by the options or the scene; nothing: the time of its

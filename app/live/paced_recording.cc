@@ -27,6 +27,7 @@ Result<std::optional<devices::Frame>> PacedRecording::Next() {
     if (frame && *frame) round_ns_ = last_ns_ + last_step_ns_ - (*frame)->timestamp_ns;
   }
   if (!frame || !*frame) return frame;
+  if (options_.played) options_.played(next_index_, **frame);
   (*frame)->index = next_index_++;
   const std::int64_t stamp_ns =
       options_.rate_hz ? static_cast<std::int64_t>(static_cast<double>((*frame)->index) * 1e9 /

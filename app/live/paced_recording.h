@@ -17,6 +17,8 @@ class PacedRecording : public devices::FrameSource {
   struct Options {
     std::optional<double> rate_hz;  ///< Instead of the recording's own rate.
     bool loop = false;              ///< Restarts at the end, forever.
+    /// Receives the index that the next frame gets, and the frame as recorded; may be empty.
+    std::function<void(std::int64_t index, const devices::Frame& recorded)> played{};
   };
   /// Opens the recording at its start. Called again for each loop.
   using Opener = std::function<Result<std::unique_ptr<devices::FrameSource>>()>;

@@ -62,29 +62,6 @@ std::optional<double> MarkerRms_px(const CameraModel& camera, double marker_size
   return count > 0.0 ? std::optional(std::sqrt(squares / count)) : std::nullopt;
 }
 
-/// What is known of a frame's marker, with the pose of the trajectory.
-Observation ByTrajectory(const CameraModel& camera, double marker_size_m, const FrameTime& time,
-                         const Observation* seen, const TrajectoryAlignment& alignment,
-                         const Transform<TrajectoryWorld, Camera>& world_from_camera) {
-  Observation here;
-  if (seen != nullptr) here = *seen;
-  if (seen != nullptr && marker_size_m > 0.0) {
-    here.reprojection_rms_px =
-        CornerDistance_px(camera, marker_size_m, alignment.marker_from_trajectory,
-                          {world_from_camera, seen->camera_from_marker, seen->corners_px});
-  }
-  if (seen == nullptr) {
-    here.frame_index = time.frame_index;
-    here.timestamp_ns = time.timestamp_ns;
-    here.visible_fraction = 0.0;
-  }
-  here.ambiguity_ratio = 0.0;
-  here.source = PoseSource::kTrajectory;
-  here.camera_from_marker = (alignment.marker_from_trajectory * world_from_camera).Inverse();
-  here.centre_deviation_m = CentreDeviation_m(alignment, world_from_camera);
-  return here;
-}
-
 /// Observations by the index of their frame.
 std::map<std::int64_t, const Observation*> ByFrame(const std::vector<Observation>& observations) {
   std::map<std::int64_t, const Observation*> by_frame;
@@ -109,6 +86,29 @@ TrajectoryOffset OffsetOf(const CameraModel& camera, const scene::MarkerDescript
 }
 
 }  // namespace
+
+Observation ObservationByTrajectory(const CameraModel& camera, double marker_size_m,
+                                    const FrameTime& time, const Observation* seen,
+                                    const TrajectoryAlignment& alignment,
+                                    const Transform<TrajectoryWorld, Camera>& world_from_camera) {
+  Observation here;
+  if (seen != nullptr) here = *seen;
+  if (seen != nullptr && marker_size_m > 0.0) {
+    here.reprojection_rms_px =
+        CornerDistance_px(camera, marker_size_m, alignment.marker_from_trajectory,
+                          {world_from_camera, seen->camera_from_marker, seen->corners_px});
+  }
+  if (seen == nullptr) {
+    here.frame_index = time.frame_index;
+    here.timestamp_ns = time.timestamp_ns;
+    here.visible_fraction = 0.0;
+  }
+  here.ambiguity_ratio = 0.0;
+  here.source = PoseSource::kTrajectory;
+  here.camera_from_marker = (alignment.marker_from_trajectory * world_from_camera).Inverse();
+  here.centre_deviation_m = CentreDeviation_m(alignment, world_from_camera);
+  return here;
+}
 
 Result<FollowedTrajectory> FollowTrajectory(const CameraModel& camera,
                                             const scene::MarkerDescription& marker,
@@ -151,7 +151,7 @@ Result<FollowedTrajectory> FollowTrajectory(const CameraModel& camera,
     if (const auto pose =
             PoseIn(trajectory, time.frame_index, time.timestamp_ns, summary.offset.offset_ns)) {
       followed.observations.push_back(
-          ByTrajectory(camera, marker.size_m, time, seen, summary.alignment, *pose));
+          ObservationByTrajectory(camera, marker.size_m, time, seen, summary.alignment, *pose));
       deviations_m.push_back(followed.observations.back().centre_deviation_m);
       ++summary.frames.by_trajectory;
       summary.frames.without_marker += seen == nullptr ? 1 : 0;

@@ -45,6 +45,13 @@ struct FollowedTrajectory {
   TrajectorySummary summary;
 };
 
+/// What is known of a frame's marker, with the pose by an aligned trajectory. `seen`: the marker in
+/// this frame; null if the frame does not show it.
+Observation ObservationByTrajectory(const CameraModel& camera, double marker_size_m,
+                                    const FrameTime& time, const Observation* seen,
+                                    const TrajectoryAlignment& alignment,
+                                    const Transform<TrajectoryWorld, Camera>& world_from_camera);
+
 /// Returns the camera's pose of every frame by a given trajectory: estimates the offset of its
 /// clock and aligns it with the marker's frame. A frame that the trajectory covers has its pose
 /// from it, with and without marker, so that nothing jumps where the marker leaves the view. Other

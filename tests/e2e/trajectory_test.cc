@@ -240,6 +240,25 @@ TEST(Trajectory, CheckSaysWhetherItFitsTheFilm) {
   ExpectRefused(RunPleinair({"check", folder / "site"}), "none.tum");
 }
 
+TEST(Trajectory, LivePlaysARecordingAlongItAndRefusesACamera) {
+  const TemporaryFolder folder;
+  WriteWalk(folder / "site", {2, 7});
+  WriteFile(folder / "site/walk.tum", WalkAsTum(0.0));
+  const std::string scene = ReadFile(folder / "site/scene.toml");
+  WriteFile(folder / "site/scene.toml", scene + "[trajectory]\nfile = \"walk.tum\"\n");
+  const RunResult live = RunPleinair({"live", "--camera", "file:" + (folder / "site").string(),
+                                      "--headless", "--lossless", "--json"});
+  ASSERT_EQ(live.exit_code, 0) << live.err;
+  EXPECT_THAT(live.out, HasSubstr("it has the pose of 12 of 12 frames"));
+  EXPECT_THAT(live.out, HasSubstr("\"with_pose\":12"));
+  WriteFile(folder / "camera.json", R"({"image_width": 640, "image_height": 480,
+      "model": "opencv-radtan", "fx": 700, "fy": 700, "cx": 319.5, "cy": 239.5,
+      "distortion_k1_k2_p1_p2_k3": [0, 0, 0, 0, 0]})");
+  ExpectRefused(RunPleinair({"live", "--camera", "v4l2:/dev/video0", "--headless", "--calibration",
+                             folder / "camera.json", "--scene", folder / "site/scene.toml"}),
+                "belongs to a recording, not to a camera");
+}
+
 /// One walk for all refusals.
 class TrajectoryRefusal : public testing::TestWithParam<Refusal> {
  protected:

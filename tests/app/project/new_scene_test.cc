@@ -47,6 +47,44 @@ TEST(NewScene, NamesAllThatNobodyStated) {
                     HasSubstr("--yes for what the tags offer (the time, the place)")));
 }
 
+TEST(NewScene, TheTrajectoryReadsBackAsItWasStated) {
+  scene::TrajectoryDescription stated;
+  stated.file = "site/scan \"1\"/walk.tum";
+  stated.points = "places.txt";
+  stated.extrinsics = "site/sensor.yaml";
+  stated.format = "tum";
+  stated.offset_s = -12.25;
+  stated.scale = 2.0;
+  stated.turn_deg = 270;
+  stated.max_gap_s = 0.5;
+  stated.frame_rate_hz = 29.97;
+  StatedScene options;
+  options.size_mm = 200.0;
+  options.heading = StatedHeading{342.0, true};
+  options.accepts_tags = true;
+  const auto scene = CollectScene(TaggedFilm(), options, nullptr);
+  const auto read = [&]() -> scene::TrajectoryDescription {
+    const std::string text =
+        NewSceneToml(scene.value(), "site").value() + NewTrajectoryToml(stated, "site").value();
+    const auto facts = scene::ParseSceneToml(text, "site/scene.toml");
+    EXPECT_TRUE(facts) << text;
+    return facts && facts->trajectory ? *facts->trajectory : scene::TrajectoryDescription();
+  };
+  scene::TrajectoryDescription again = read();
+  EXPECT_EQ(again.file, stated.file);
+  EXPECT_EQ(again.points, stated.points);
+  EXPECT_EQ(again.extrinsics, stated.extrinsics);
+  EXPECT_EQ(again.format, stated.format);
+  EXPECT_EQ(again.offset_s, stated.offset_s);
+  EXPECT_EQ(again.scale, stated.scale);
+  EXPECT_EQ(again.turn_deg, stated.turn_deg);
+  EXPECT_EQ(again.max_gap_s, stated.max_gap_s);
+  EXPECT_EQ(again.frame_rate_hz, stated.frame_rate_hz);
+  stated.scale.reset();
+  stated.is_scale_free = true;
+  EXPECT_TRUE(read().is_scale_free);
+}
+
 TEST(NewScene, TakesTagsOnlyWhenTheyAreAcceptedAndMarksThem) {
   StatedScene stated;
   stated.size_mm = 200.0;

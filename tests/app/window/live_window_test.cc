@@ -71,7 +71,7 @@ TEST(LiveWindow, StaysThroughAnUnplugAndShowsTheCameraAgainWhenItComesBack) {
   devices::LiveCamera* camera = opened->get();
   LiveOptions options = tests::SmallCameraOptions();
   options.shown_elsewhere = true;
-  options.stop_source = [camera] { camera->Stop(); };
+  options.source.stop = [camera] { camera->Stop(); };
   LiveWindowOptions window;
   window.camera = options.camera;
   window.scene = options.scene;
