@@ -1,6 +1,9 @@
 #include <algorithm>
+#include <memory>
 #include <mutex>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "sky/atmosphere/atmosphere.h"
 #include "sky/dome.h"
@@ -54,13 +57,42 @@ class AtmosphereModel : public SkyModel {
   mutable LinearRgb sky_horizontal_;
 };
 
+/// The tables of an atmosphere. Sources of the same air share them while any of them lives, since
+/// they take a quarter of a second.
+std::shared_ptr<const AtmosphereTables> TablesOf(const Aerosol& aerosol, double ground_albedo) {
+  struct Shared {
+    Aerosol aerosol;
+    double ground_albedo;
+    std::weak_ptr<const AtmosphereTables> tables;
+  };
+  static std::mutex mutex;
+  static std::vector<Shared> all;
+  const auto find = [&]() -> std::shared_ptr<const AtmosphereTables> {
+    for (const Shared& shared : all) {
+      if (shared.aerosol != aerosol || shared.ground_albedo != ground_albedo) continue;
+      if (auto tables = shared.tables.lock()) return tables;
+    }
+    return nullptr;
+  };
+  {
+    const std::lock_guard lock(mutex);
+    if (auto tables = find()) return tables;
+  }
+  // Others need not wait for tables of other air.
+  auto made = std::make_shared<const AtmosphereTables>(aerosol, ground_albedo);
+  const std::lock_guard lock(mutex);
+  if (auto tables = find()) return tables;
+  std::erase_if(all, [](const Shared& shared) { return shared.tables.expired(); });
+  all.push_back({aerosol, ground_albedo, made});
+  return made;
+}
+
 class AtmosphereSource : public SkySource {
  public:
   explicit AtmosphereSource(const SkyConditions& conditions)
-      : tables_(std::make_shared<const AtmosphereTables>(
-            conditions.aerosol.value_or(
-                AerosolOfTurbidity(conditions.turbidity.value_or(kDefaultTurbidity))),
-            conditions.ground_albedo)) {}
+      : tables_(TablesOf(conditions.aerosol.value_or(
+                             AerosolOfTurbidity(conditions.turbidity.value_or(kDefaultTurbidity))),
+                         conditions.ground_albedo)) {}
 
   std::unique_ptr<SkyModel> ForSun(Direction<World> to_sun, double distance_au) const override {
     return std::make_unique<AtmosphereModel>(tables_, to_sun, distance_au);

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 
+#include "base/parallel_for.h"
 #include "base/units.h"
 #include "sky/atmosphere/scattering_layers.h"
 
@@ -166,8 +168,8 @@ ScatteredLight::ScatteredLight(const AirMedium& medium, const OpticalDepthTable&
   const double asymmetry = medium.aerosol.asymmetry;
   const internal::PhaseMatrices phases(asymmetry);
   const ViewMatrices views(asymmetry);
-  Field source(kLevels), radiance(kLevels), total(kLevels);
-  for (int s = 0; s < kSuns; ++s) {
+  ParallelFor(kSuns, 0, [&](std::size_t s) {
+    Field source(kLevels), radiance(kLevels), total(kLevels);
     const double mu_sun = std::sin(kSunElevations[s] * kRadiansPerDegree);
     std::array<Spectrum, kLevels> sun;
     for (int level = 0; level < kLevels; ++level) {
@@ -197,14 +199,14 @@ ScatteredLight::ScatteredLight(const AirMedium& medium, const OpticalDepthTable&
     }
     for (int level = 0; level < kLevels; ++level) {
       for (int view = 0; view < kViews; ++view) {
-        Source& out = table_[(static_cast<std::size_t>(s) * kLevels + level) * kViews + view];
+        Source& out = table_[(s * kLevels + level) * kViews + view];
         Gather(views.molecules_above[view], views.molecules_below[view], total[level].above,
                total[level].below, kMoleculeModes, out.molecules.data());
         Gather(views.aerosol_above[view], views.aerosol_below[view], total[level].above,
                total[level].below, kAerosolModes, out.aerosol.data());
       }
     }
-  }
+  });
 }
 
 ScatteredLight::Source ScatteredLight::At(int sun, double height_m,
