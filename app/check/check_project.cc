@@ -25,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // With a trajectory, the marker may be in view for a second of a minute.
-constexpr std::size_t kMaxFrames = 24, kMaxFramesAlongTrajectory = 96;
+constexpr std::size_t kMaxFramesByMarker = 24, kMaxFramesAlongTrajectory = 96;
 
 Result<devices::Recording> OpenSpread(const CheckRequest& request) {
   PLEINAIR_ASSIGN_OR_RETURN(
@@ -33,7 +33,7 @@ Result<devices::Recording> OpenSpread(const CheckRequest& request) {
       devices::OpenRecording(request.project, {request.calibration, request.scene}));
   const bool has_trajectory = recording.scene && recording.scene->trajectory;
   recording.frames = std::make_unique<SpreadFrames>(
-      std::move(recording.frames), has_trajectory ? kMaxFramesAlongTrajectory : kMaxFrames);
+      std::move(recording.frames), has_trajectory ? kMaxFramesAlongTrajectory : kMaxFramesByMarker);
   return recording;
 }
 

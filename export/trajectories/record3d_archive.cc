@@ -15,7 +15,7 @@ namespace {
 constexpr const char* kMember = "metadata";
 constexpr const char* kShareAgain = "share it again from Record3D";
 /// An hour at 60 Hz has some 100 MB. The parsed JSON takes several times as much memory.
-constexpr zip_uint64_t kMaxBytes = zip_uint64_t{1} << 28;
+constexpr zip_uint64_t kMaxMetadata_bytes = zip_uint64_t{1} << 28;
 /// Numbers in JSON compress three- to tenfold, DEFLATE a thousandfold at most.
 constexpr zip_uint64_t kMaxRatio = 100, kSurelySmall = zip_uint64_t{1} << 20;
 
@@ -62,7 +62,7 @@ Result<zip_uint64_t> CheckedSize(zip_t* archive, zip_uint64_t index, const std::
   if ((facts.valid & ZIP_STAT_ENCRYPTION_METHOD) != 0 && facts.encryption_method != ZIP_EM_NONE) {
     return InputError(name, "is encrypted", "share it without a password");
   }
-  if (facts.size > kMaxBytes ||
+  if (facts.size > kMaxMetadata_bytes ||
       (facts.size > kSurelySmall && facts.size / kMaxRatio > facts.comp_size)) {
     return InputError(name, "has metadata that would unpack to more than a trajectory needs",
                       kShareAgain);
