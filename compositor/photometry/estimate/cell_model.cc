@@ -25,10 +25,8 @@ constexpr double kStrayWidth = 0.7, kStrayColor = 0.3, kStrayShare = 0.02;
 constexpr std::array kSolid{0.55, 0.10, 0.25, 0.10}, kLeaves{0.30, 0.40, 0.05, 0.25};
 // Beneath leaves, the share of what they do not shade that has all of the sun.
 constexpr double kOpenBetweenLeaves = 0.6;
-// Shares of the sky that a shadow caster hides: kTakenBySolid by something solid, kTakenByCrown by
-// a crown. kNotReflected: share of the reflected sunlight that goes with the sun beneath a crown.
-// All three are guesses.
-constexpr double kTakenBySolid = 0.1, kTakenByCrown = 0.35, kNotReflected = 0.5;
+// Share of the reflected sunlight that goes with the sun beneath a crown. A guess.
+constexpr double kNotReflected = 0.5;
 // For places that the phantoms shade by themselves. kMaxTaken: max. share of the sky that a crown
 // takes. kMinReflected: min. share of the reflected sunlight that it leaves.
 constexpr double kMaxTaken = 0.6, kMinReflected = 0.2;
@@ -133,7 +131,7 @@ double LevelIn(const LightCell& cell, LinearRgb light) {
 }
 
 void SetOneLevel(double level, CellPrediction* prediction) {
-  prediction->open = prediction->dark = level;
+  prediction->open = prediction->dark = prediction->gap = level;
   prediction->crown.fill(level);
 }
 
@@ -144,6 +142,7 @@ void SetLevels(const LightCell& cell, LinearRgb open, LinearRgb dark, LinearRgb 
   prediction->dark = LevelIn(cell, dark);
   for (std::size_t i = 0; i < kBands.size(); ++i)
     prediction->crown[i] = LevelIn(cell, crown + sun * kBands[i]);
+  prediction->gap = LevelIn(cell, crown + sun);
 }
 
 }  // namespace
@@ -196,6 +195,7 @@ CellPrediction PredictInSun(const LightCell& cell, double log_sky_scale, double 
   const double between = Between(brightness, none, full, sigma) * color;
   prediction.density = {Normal(brightness - full, sigma) * color, between, between, between,
                         StrayDensity(seen)};
+  prediction.density[kGap] = prediction.density[kOpen];
   prediction.density[kDark] =
       Normal(brightness - none, sigma) * ColorDensity(seen, no_shadow, kColorError);
   double low = Brightness(ContrastOf(crown, shaded));
@@ -221,6 +221,7 @@ CellPrediction PredictAtLevel(const LightCell& cell, double open, const LogRgb& 
             CrownShade(*cell.sunny, scale), cell.sun, &prediction);
   for (double& level : prediction.crown) level += open - prediction.open;
   prediction.dark += open - prediction.open;
+  prediction.gap += open - prediction.open;
   prediction.open = open;
   SetStepDensities(cell, Brightness(depth), ModelDepth(cell), &prediction);
   return prediction;
@@ -281,7 +282,9 @@ std::array<double, kCellStates> StatePrior(const CellPrediction& prediction,
   prior[shade.leaves ? kFiltered : kPartial] = shaded * of[1];
   if (shade.leaves) {
     prior[kBand + shade.band] = shaded * of[0];
-    prior[kOpen] = open * kOpenBetweenLeaves;
+    // The more shade there is, the more of what is open lies beneath the crown.
+    prior[kOpen] = open * kOpenBetweenLeaves * (1 - shade.share);
+    prior[kGap] = open * kOpenBetweenLeaves * shade.share;
     prior[kNearlyOpen] = open * (1 - kOpenBetweenLeaves);
   } else {
     prior[kDark] = shaded * of[0];

@@ -21,13 +21,16 @@ enum CellState : std::size_t {
   kFiltered,  ///< Any part of the sun reaches it, beneath a crown.
   kBand,      ///< A share in the first of kBands reaches it, beneath a crown; then further bands.
 };
-inline constexpr std::size_t kNearlyOpen = kBand + kBands.size() - 1, kCellStates = kNearlyOpen + 1;
+inline constexpr std::size_t kNearlyOpen = kBand + kBands.size() - 1;
+/// All of the sun reaches it through a gap of a crown, which hides a part of its sky.
+inline constexpr std::size_t kGap = kNearlyOpen + 1, kCellStates = kGap + 1;
 
 /// What a hypothesis about the light predicts for one cell.
 struct CellPrediction {
   /// Brightness of the surface as described: logarithm of cd/m². In the open, behind something
-  /// solid, and with each share of kBands beneath a crown, which hides more of the sky.
-  double open = 0.0, dark = 0.0;
+  /// solid, in a gap of a crown, and with each share of kBands beneath one, which hides more of the
+  /// sky.
+  double open = 0.0, dark = 0.0, gap = 0.0;
   std::array<double, kBands.size()> crown{};
   bool in_sun = false;  ///< Unmodelled shade can darken it; all other cells are open.
   /// Probability density of the seen contrast and step in each state.
@@ -57,6 +60,9 @@ struct UnmodelledShade {
   bool leaves = false;
   std::size_t band = 0;  ///< Index into kBands: most of the shade of leaves.
 };
+
+/// Shares of the sky that a shadow caster hides: something solid, or a crown. Both are guesses.
+inline constexpr double kTakenBySolid = 0.1, kTakenByCrown = 0.2;
 
 /// Prior probabilities of the states of a cell.
 std::array<double, kCellStates> StatePrior(const CellPrediction& prediction, UnmodelledShade shade);

@@ -93,6 +93,7 @@ Fitted FitAt(const FittedLightInput& input, Radians heading) {
   fitted.posterior = FitLight(fitted.cells, {.marker = fitted.on_marker,
                                              .sun = input.day.SunNormalIrradiance(),
                                              .up = marker_from_world * Vec3{0, 0, 1},
+                                             .to_sun = fitted.to_sun,
                                              .prior = PriorOf(input.scene.cloudiness)});
   return fitted;
 }

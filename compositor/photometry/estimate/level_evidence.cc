@@ -10,8 +10,11 @@
 namespace pleinair::compositor {
 namespace {
 
-// One standard deviation of the pattern of a material, logarithmic; some cells hold more of it.
-constexpr double kPattern = 0.12, kStrongPattern = 0.25, kStrongShare = 0.25;
+/// Pattern of a material, logarithmic: most cells of it are alike, few differ much.
+struct Pattern {
+  double sigma, share;  ///< One standard deviation, and the share of the cells.
+};
+constexpr std::array<Pattern, 3> kPatterns{{{0.06, 0.5}, {0.12, 0.3}, {0.25, 0.2}}};
 // Scale of the error of described albedos, and freedom of Student's distribution.
 constexpr double kAlbedoError = 0.25, kAlbedoFreedom = 3.0;
 
@@ -27,9 +30,10 @@ class PatternTables {
     };
     for (int i = 0; i < kCount; ++i) {
       const double x = (i - kCount / 2) * kStep;
-      density_[i] =
-          (1 - kStrongShare) * normal(x, kPattern) + kStrongShare * normal(x, kStrongPattern);
-      share_[i] = (1 - kStrongShare) * share(x, kPattern) + kStrongShare * share(x, kStrongPattern);
+      for (const Pattern& pattern : kPatterns) {
+        density_[i] += pattern.share * normal(x, pattern.sigma);
+        share_[i] += pattern.share * share(x, pattern.sigma);
+      }
     }
   }
   double Density(double x) const { return density_[Index(x)]; }
@@ -62,6 +66,7 @@ std::array<double, kCellStates> Levels(const LightCell& cell, const CellPredicti
   std::array<double, kCellStates> levels{};
   levels[kOpen] = table.Density(off - at.open);
   levels[kDark] = table.Density(off - at.dark);
+  levels[kGap] = table.Density(off - at.gap);
   levels[kPartial] = up_from(at.dark, table.Share(off - at.dark));
   double beyond = table.Share(off - at.crown[0]);
   levels[kFiltered] = up_from(at.crown[0], beyond);
@@ -103,18 +108,6 @@ LevelFunction Blurred(const LevelFunction& log_values, double sigma) {
   return blurred;
 }
 
-/// Sum over the planes' blurred evidence but one (none: past the end).
-LevelFunction SumOfPlanes(std::span<const LevelFunction> planes, double sigma,
-                          std::size_t without) {
-  LevelFunction sum{};
-  for (std::size_t p = 0; p < planes.size(); ++p) {
-    if (p == without) continue;
-    const LevelFunction blurred = Blurred(planes[p], sigma);
-    for (int i = 0; i < LevelGrid::kCount; ++i) sum[i] += blurred[i];
-  }
-  return sum;
-}
-
 double LogAlbedoPrior(double error) {
   // Normalising constant of Student's distribution with three degrees of freedom: 2 / (π √3 scale).
   static const double log_constant =
@@ -135,67 +128,61 @@ double LogSum(const LevelFunction& values) {
   return top + std::log(sum * LevelGrid::kStep);
 }
 
-std::vector<LevelFunction> LevelEvidence::OfPlane(std::span<const LightCell* const> cells,
-                                                  std::span<const CellPrediction> predictions,
-                                                  std::span<const UnmodelledShade> shades) {
-  std::vector<LevelFunction> evidence(shades.size()), product(shades.size());
-  for (LevelFunction& values : product) values.fill(1.0);
-  // A mix has few of the many states: those with a prior above 0.
-  std::vector<std::vector<std::pair<std::size_t, double>>> weights(shades.size());
-  for (std::size_t k = 0; k < cells.size(); ++k) {
-    for (std::size_t m = 0; m < shades.size(); ++m) {
-      const auto prior = StatePrior(predictions[k], shades[m]);
-      weights[m].clear();
-      for (std::size_t s = 0; s < kCellStates; ++s) {
-        if (prior[s] > 0.0) weights[m].emplace_back(s, prior[s] * predictions[k].density[s]);
-      }
-    }
-    for (int i = 0; i < LevelGrid::kCount; ++i) {
-      const auto levels = Levels(*cells[k], predictions[k], LevelGrid::At(i));
-      for (std::size_t m = 0; m < shades.size(); ++m) {
-        double sum = 0.0;
-        for (const auto& [state, weight] : weights[m]) sum += weight * levels[state];
-        product[m][i] *= sum;
-      }
-    }
-    // Logarithms are slow; products of a few densities do not leave the range of numbers.
-    constexpr std::size_t kAtOnce = 8;
-    if ((k + 1) % kAtOnce != 0 && k + 1 < cells.size()) continue;
-    for (std::size_t m = 0; m < shades.size(); ++m) {
-      for (int i = 0; i < LevelGrid::kCount; ++i) {
-        evidence[m][i] += std::log(std::max(product[m][i], 1e-300));
-        product[m][i] = 1.0;
-      }
+void LevelEvidence::OfCell(const LightCell& cell, const CellPrediction& prediction,
+                           std::span<const UnmodelledShade> shades,
+                           std::span<LevelDensity> by_mix) {
+  std::array<LevelDensity, kCellStates> levels;
+  for (int i = 0; i < LevelGrid::kCount; ++i) {
+    const auto at = Levels(cell, prediction, LevelGrid::At(i));
+    for (std::size_t s = 0; s < kCellStates; ++s) levels[s][i] = static_cast<float>(at[s]);
+  }
+  for (std::size_t m = 0; m < shades.size(); ++m) {
+    const auto prior = StatePrior(prediction, shades[m]);
+    by_mix[m] = {};
+    for (std::size_t s = 0; s < kCellStates; ++s) {
+      // A mix has few of the many states.
+      if (prior[s] == 0.0) continue;
+      const auto weight = static_cast<float>(prior[s] * prediction.density[s]);
+      for (int i = 0; i < LevelGrid::kCount; ++i) by_mix[m][i] += weight * levels[s][i];
     }
   }
-  return evidence;
 }
 
-LevelFunction LevelEvidence::OfSurface(std::span<const LevelFunction> planes, double plane_error) {
-  const LevelFunction sum = SumOfPlanes(planes, plane_error, planes.size());
-  const double top = *std::max_element(sum.begin(), sum.end());
-  LevelFunction values, of_exposure{};
-  for (int i = 0; i < LevelGrid::kCount; ++i) values[i] = std::exp(sum[i] - top);
-  static const auto prior = [] {
-    std::array<double, 2 * LevelGrid::kCount> densities;
-    for (int d = 0; d < 2 * LevelGrid::kCount; ++d)
-      densities[d] = std::exp(LogAlbedoPrior((d - LevelGrid::kCount) * LevelGrid::kStep));
-    return densities;
-  }();
-  for (int e = 0; e < LevelGrid::kCount; ++e) {
-    double total = 0.0;
-    for (int i = 0; i < LevelGrid::kCount; ++i)
-      total += prior[i - e + LevelGrid::kCount] * values[i];
-    of_exposure[e] = top + std::log(std::max(total * LevelGrid::kStep, 1e-300));
+LevelFunction Normalized(LevelFunction log_values) {
+  const double all = LogSum(log_values) - std::log(LevelGrid::kStep);
+  for (double& value : log_values) value = std::exp(value - all);
+  return log_values;
+}
+
+SurfaceEvidence::SurfaceEvidence(std::vector<LevelFunction> planes, double plane_error)
+    : planes_(std::move(planes)), plane_error_(plane_error) {
+  blurred_.reserve(planes_.size());
+  for (const LevelFunction& plane : planes_) {
+    blurred_.push_back(Blurred(plane, plane_error));
+    for (int i = 0; i < LevelGrid::kCount; ++i) sum_[i] += blurred_.back()[i];
   }
-  return of_exposure;
 }
 
-std::array<double, kCellStates> LevelEvidence::StatesOf(const LightCell& cell,
-                                                        const CellPrediction& prediction,
-                                                        UnmodelledShade shade, double u) {
+double SurfaceEvidence::At(double e) const {
+  LevelFunction with_prior;
+  for (int i = 0; i < LevelGrid::kCount; ++i)
+    with_prior[i] = sum_[i] + LogAlbedoPrior(LevelGrid::At(i) - e);
+  return LogSum(with_prior);
+}
+
+LevelFunction SurfaceEvidence::LevelsOf(std::size_t plane, double e) const {
+  LevelFunction others;
+  for (int i = 0; i < LevelGrid::kCount; ++i)
+    others[i] = sum_[i] - blurred_[plane][i] + LogAlbedoPrior(LevelGrid::At(i) - e);
+  LevelFunction levels = Blurred(others, plane_error_);
+  for (int i = 0; i < LevelGrid::kCount; ++i) levels[i] += planes_[plane][i];
+  return Normalized(levels);
+}
+
+std::array<double, kCellStates> LevelEvidence::StatesOf(
+    const LightCell& cell, const CellPrediction& prediction,
+    const std::array<double, kCellStates>& prior, double u) {
   std::array<double, kCellStates> states = Levels(cell, prediction, u);
-  const auto prior = StatePrior(prediction, shade);
   double sum = 0.0;
   for (std::size_t s = 0; s < kCellStates; ++s) {
     states[s] *= prior[s] * prediction.density[s];
@@ -203,22 +190,6 @@ std::array<double, kCellStates> LevelEvidence::StatesOf(const LightCell& cell,
   }
   for (double& state : states) state = sum > 0.0 ? state / sum : 0.0;
   return states;
-}
-
-double LevelEvidence::BestLevel(std::span<const LevelFunction> planes, std::size_t plane, double e,
-                                double plane_error) {
-  const LevelFunction others = SumOfPlanes(planes, plane_error, plane);
-  LevelFunction albedo;
-  for (int i = 0; i < LevelGrid::kCount; ++i)
-    albedo[i] = others[i] + LogAlbedoPrior(LevelGrid::At(i) - e);
-  const LevelFunction prior = Blurred(albedo, plane_error);
-  double best = 0.0, most = -1e300;
-  for (int i = 0; i < LevelGrid::kCount; ++i) {
-    if (prior[i] + planes[plane][i] <= most) continue;
-    most = prior[i] + planes[plane][i];
-    best = LevelGrid::At(i);
-  }
-  return best;
 }
 
 }  // namespace pleinair::compositor

@@ -18,6 +18,8 @@ class LevelGrid {
 };
 /// A function of that error.
 using LevelFunction = std::array<double, LevelGrid::kCount>;
+/// The same of densities, which need neither range nor digits.
+using LevelDensity = std::array<float, LevelGrid::kCount>;
 
 /// Evidence of how bright surfaces are, beside what a hypothesis about the light predicts.
 ///
@@ -31,29 +33,38 @@ using LevelFunction = std::array<double, LevelGrid::kCount>;
 /// light. All surfaces share the error e of the exposure scale.
 class LevelEvidence {
  public:
-  /// Product over a plane's cells of Σ prior × density × level, as a logarithm, for each u; one
-  /// result for each of `shades`.
-  static std::vector<LevelFunction> OfPlane(std::span<const LightCell* const> cells,
-                                            std::span<const CellPrediction> predictions,
-                                            std::span<const UnmodelledShade> shades);
+  /// Σ prior × density × level over a cell's states, for each u; one function for each of `shades`.
+  static void OfCell(const LightCell& cell, const CellPrediction& prediction,
+                     std::span<const UnmodelledShade> shades, std::span<LevelDensity> by_mix);
 
-  /// Logarithmic likelihood of e, from the planes of one surface. `plane_error`: one standard
-  /// deviation of the modelled light on a plane.
-  static LevelFunction OfSurface(std::span<const LevelFunction> planes, double plane_error);
-
-  /// Posterior probabilities of a cell's states, at the error u of its plane.
+  /// Posterior probabilities of a cell's states from their prior ones, at the error u of its plane.
   static std::array<double, kCellStates> StatesOf(const LightCell& cell,
                                                   const CellPrediction& prediction,
-                                                  UnmodelledShade shade, double u);
+                                                  const std::array<double, kCellStates>& prior,
+                                                  double u);
+};
 
-  /// The most probable u of a plane, where its surface's planes have the evidence `planes` and the
-  /// exposure scale the error e.
-  static double BestLevel(std::span<const LevelFunction> planes, std::size_t plane, double e,
-                          double plane_error);
+/// Logarithmic likelihood of the exposure scale's error e, from the planes of one surface.
+class SurfaceEvidence {
+ public:
+  /// `planes`: logarithmic likelihood of each plane's u. `plane_error`: one standard deviation of
+  /// the modelled light on a plane.
+  SurfaceEvidence(std::vector<LevelFunction> planes, double plane_error);
+
+  double At(double e) const;
+  /// Posterior probabilities of a plane's u at the error e.
+  LevelFunction LevelsOf(std::size_t plane, double e) const;
+
+ private:
+  std::vector<LevelFunction> planes_, blurred_;
+  LevelFunction sum_{};  // Over the planes.
+  double plane_error_;
 };
 
 /// Logarithm of Σ exp(value) × step of the grid.
-double LogSum(const LevelFunction& values);
+double LogSum(const LevelFunction& log_values);
+/// Probabilities in proportion to exp(value).
+LevelFunction Normalized(LevelFunction log_values);
 
 /// Brightness whose level a cell shows: of its sunny part, or of the shaded one.
 double LevelOf(const LightCell& cell);

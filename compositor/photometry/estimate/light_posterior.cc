@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <map>
+#include <limits>
 #include <numbers>
 #include <span>
 #include <utility>
@@ -13,6 +13,8 @@
 #include "base/quantile.h"
 #include "compositor/photometry/estimate/cell_model.h"
 #include "compositor/photometry/estimate/level_evidence.h"
+#include "compositor/photometry/estimate/shade_field.h"
+#include "compositor/photometry/estimate/shaded_levels.h"
 #include "compositor/photometry/estimate/sky_color.h"
 
 namespace pleinair::compositor {
@@ -23,11 +25,13 @@ constexpr int kScales = 56;
 constexpr double kFirstScale = -2.0, kScaleStep = 0.1;
 
 /// A kind of place: hardly any unmodelled shade, shade by solid things, or by leaves. In each kind,
-/// the shade of one surface is any of some mixes.
+/// the shade of one place is any of some mixes.
 struct Kind {
   std::size_t first, count;  // Range in kShades.
   double prior;
-  double on_marker;  // Expected share of shade.
+  double taken;  // Share of the sky that the casters hide.
+
+  std::span<const UnmodelledShade> mixes() const;
 };
 constexpr std::array<UnmodelledShade, 22> kShades{
     {{0.01},          {0.02},          {0.1},           {0.4},           {0.7},
@@ -35,7 +39,11 @@ constexpr std::array<UnmodelledShade, 22> kShades{
      {0.35, true, 0}, {0.35, true, 1}, {0.35, true, 2}, {0.35, true, 3}, {0.7, true, 0},
      {0.7, true, 1},  {0.7, true, 2},  {0.7, true, 3},  {0.95, true, 0}, {0.95, true, 1},
      {0.95, true, 2}, {0.95, true, 3}}};
-constexpr std::array<Kind, 3> kKinds{{{0, 1, 0.6, 0.01}, {1, 5, 0.2, 0.3}, {6, 16, 0.2, 0.5}}};
+constexpr std::array<Kind, 3> kKinds{
+    {{0, 1, 0.6, 0.0}, {1, 5, 0.2, kTakenBySolid}, {6, 16, 0.2, kTakenByCrown}}};
+std::span<const UnmodelledShade> Kind::mixes() const {
+  return std::span(kShades).subspan(first, count);
+}
 // Under a sun from elsewhere, and under clouds.
 constexpr std::array kOtherShade{UnmodelledShade{0.4}}, kNoShade{UnmodelledShade{}};
 
@@ -43,7 +51,16 @@ constexpr std::array kOtherShade{UnmodelledShade{0.4}}, kNoShade{UnmodelledShade
 constexpr double kPlaneError = 0.15, kOtherPlaneError = 0.6;
 // The same of the sky before a plane that is not level: the model's sky differs from the true one
 // by direction. Integrated by three points (Gauss and Hermite: 0, ±√3 σ with weights 2/3, 1/6).
-constexpr double kSkyError = 0.2, kLevelCosine = 0.9;
+constexpr double kSkyError = 0.2;
+constexpr std::array<ShadedLevels::SkyError, 3> kSkyErrors{
+    {{0.0, 2.0 / 3}, {-1.7320508 * kSkyError, 1.0 / 6}, {1.7320508 * kSkyError, 1.0 / 6}}};
+constexpr std::array kNoSkyError{ShadedLevels::SkyError{}};
+// Errors of the exposure scale are tried in this step of the grid, unless their probability without
+// neighbours is below the largest by this logarithm.
+constexpr int kExposureStep = 2;
+constexpr double kNegligible = 12.0;
+// The same of the sky's scales within a kind of place. Neighbours change more there.
+constexpr double kUnlikely = 20.0;
 // Probability that something stains the marker.
 constexpr double kStained = 0.02;
 // Common to all edges, logarithmic: shape of the sky, described colors.
@@ -69,206 +86,179 @@ double LogAdd(double a, double b) {
 class Fit {
  public:
   Fit(const std::vector<LightCell>& cells, const LightFitInput& input)
-      : cells_(cells), input_(input) {
-    for (const LightCell& cell : cells) surfaces_[cell.surface][cell.plane].push_back(&cell);
+      : cells_(cells), input_(input), field_(cells, input.to_sun) {
     for (int i = 0; i < kScales; ++i) scales_[i] = kFirstScale + kScaleStep * i;
   }
 
   LightPosterior Solve() const;
 
  private:
-  using Planes = std::map<int, std::vector<const LightCell*>>;
-
-  /// Level evidence of the planes of a surface, per mix.
-  template <typename Predict>
-  std::vector<std::vector<LevelFunction>> OfPlanes(const Planes& planes,
-                                                   std::span<const UnmodelledShade> shades,
-                                                   const Predict& predict) const;
-  /// Logarithmic likelihood of the exposure scale's error by one surface, per mix.
-  template <typename Predict>
-  std::vector<LevelFunction> OfSurface(int surface, std::span<const UnmodelledShade> shades,
-                                       double plane_error, const Predict& predict) const;
-  /// The same by all surfaces, under one mix.
-  template <typename Predict>
-  LevelFunction OfAll(std::span<const UnmodelledShade> shade, double plane_error,
-                      const Predict& predict) const;
-  MarkerExposure Exposure(double log_scale, const Kind& kind) const;
-  ByKind SunEvidence(double log_scale) const;
+  MarkerExposure Exposure(double log_scale, const Kind& kind, double shaded) const;
+  ShadedLevels InSun(double log_scale, const Kind& kind) const;
+  /// Logarithmic likelihood of the errors of the exposure scale, without neighbours.
+  LevelFunction RoughEvidence(double log_scale, const Kind& kind, const ShadedLevels& levels) const;
+  KindEvidence SunEvidence(double log_scale, const Kind& kind) const;
+  /// The evidence of all scales and kinds. Scales that are far from likely have none.
+  std::vector<ByKind> SunEvidence() const;
   double CloudEvidence() const;
   double OtherEvidence() const;
   /// What a scale and kind of place make of the cells.
   void Explain(double log_scale, const Kind& kind, double e, LightPosterior* found) const;
 
-  double SkyErrorOf(const LightCell& cell, int i) const {
-    constexpr std::array kPoints{0.0, -1.7320508, 1.7320508};
-    return Dot(cell.normal, input_.up) > kLevelCosine ? 0.0 : kSkyError * kPoints[i];
-  }
-  auto InSun(double log_scale) const {
-    return [this, log_scale](const LightCell& cell, int i) {
-      return PredictInSun(cell, log_scale, SkyErrorOf(cell, i));
-    };
-  }
-
   const std::vector<LightCell>& cells_;
   const LightFitInput& input_;
-  std::map<int, Planes> surfaces_;
+  ShadeField field_;
   std::array<double, kScales> scales_;
 };
 
-template <typename Predict>
-std::vector<std::vector<LevelFunction>> Fit::OfPlanes(const Planes& planes,
-                                                      std::span<const UnmodelledShade> shades,
-                                                      const Predict& predict) const {
-  constexpr std::array kWeights{2.0 / 3, 1.0 / 6, 1.0 / 6};
-  std::vector<std::vector<LevelFunction>> by_mix(shades.size());
-  for (const auto& [plane, members] : planes) {
-    std::vector<CellPrediction> predictions(members.size());
-    const bool level = SkyErrorOf(*members.front(), 1) == 0.0;
-    std::vector<LevelFunction> sum(shades.size());
-    for (int i = 0; i < (level ? 1 : 3); ++i) {
-      for (std::size_t k = 0; k < members.size(); ++k) predictions[k] = predict(*members[k], i);
-      const auto evidence = LevelEvidence::OfPlane(members, predictions, shades);
-      const double weight = level ? 0.0 : std::log(kWeights[i]);
-      for (std::size_t m = 0; m < shades.size(); ++m) {
-        for (int u = 0; u < LevelGrid::kCount; ++u) {
-          const double value = evidence[m][u] + weight;
-          sum[m][u] = i == 0 ? value : LogAdd(sum[m][u], value);
-        }
-      }
-    }
-    for (std::size_t m = 0; m < shades.size(); ++m) by_mix[m].push_back(sum[m]);
-  }
-  return by_mix;
-}
-
-template <typename Predict>
-std::vector<LevelFunction> Fit::OfSurface(int surface, std::span<const UnmodelledShade> shades,
-                                          double plane_error, const Predict& predict) const {
-  const auto evidence = OfPlanes(surfaces_.at(surface), shades, predict);
-  std::vector<LevelFunction> by_mix(shades.size());
-  for (std::size_t m = 0; m < shades.size(); ++m) {
-    if (surface < 0) {
-      // The marker's brightness is the prior of the exposure scale; only its edges count here.
-      by_mix[m].fill(LogSum(evidence[m].front()));
-    } else {
-      by_mix[m] = LevelEvidence::OfSurface(evidence[m], plane_error);
-    }
-  }
-  return by_mix;
-}
-
-template <typename Predict>
-LevelFunction Fit::OfAll(std::span<const UnmodelledShade> shade, double plane_error,
-                         const Predict& predict) const {
-  LevelFunction sum{};
-  for (const auto& [surface, planes] : surfaces_) {
-    const LevelFunction evidence = OfSurface(surface, shade, plane_error, predict).front();
-    for (int e = 0; e < LevelGrid::kCount; ++e) sum[e] += evidence[e];
-  }
-  return sum;
-}
-
-MarkerExposure Fit::Exposure(double log_scale, const Kind& kind) const {
+MarkerExposure Fit::Exposure(double log_scale, const Kind& kind, double shaded) const {
   const CellLight& from = input_.marker.from;
-  return {input_.marker, from.sky * std::exp(log_scale) + from.reflected, input_.marker.sun,
-          kind.on_marker};
+  return {input_.marker, from.sky * std::exp(log_scale) + from.reflected, input_.marker.sun, shaded,
+          kind.taken};
 }
 
-ByKind Fit::SunEvidence(double log_scale) const {
-  std::array<LevelFunction, kKinds.size()> sums;
-  for (std::size_t k = 0; k < kKinds.size(); ++k)
-    sums[k] = Exposure(log_scale, kKinds[k]).LogPrior();
-  for (const auto& [surface, planes] : surfaces_) {
-    const auto by_mix = OfSurface(surface, kShades, kPlaneError, InSun(log_scale));
+ShadedLevels Fit::InSun(double log_scale, const Kind& kind) const {
+  return {cells_,
+          &field_,
+          input_.up,
+          kind.mixes(),
+          kSkyErrors,
+          kPlaneError,
+          [log_scale](const LightCell& cell, double log_sky_error) {
+            return PredictInSun(cell, log_scale, log_sky_error);
+          }};
+}
+
+LevelFunction Fit::RoughEvidence(double log_scale, const Kind& kind,
+                                 const ShadedLevels& levels) const {
+  LevelFunction rough = levels.Uncoupled();
+  const MarkerExposure anywhere = Exposure(log_scale, kind, 0.5);
+  for (int i = 0; i < LevelGrid::kCount; ++i) rough[i] += anywhere.LogPrior(LevelGrid::At(i));
+  return rough;
+}
+
+KindEvidence Fit::SunEvidence(double log_scale, const Kind& kind) const {
+  ShadedLevels levels = InSun(log_scale, kind);
+  const LevelFunction rough = RoughEvidence(log_scale, kind, levels);
+  const double likely = *std::max_element(rough.begin(), rough.end()) - kNegligible;
+  std::vector<double> errors, logs, shades;
+  for (int i = LevelGrid::kCount - 1; i >= 0; i -= kExposureStep) {
+    if (rough[i] < likely && i > 0 && rough[i - 1] < likely) continue;
+    const double e = LevelGrid::At(i);
+    if (errors.empty()) levels.At(e);
+    const double log = levels.At(e);
+    const MarkerExposure exposure = Exposure(log_scale, kind, levels.ShareOnMarker());
+    errors.push_back(e);
+    logs.push_back(log + exposure.LogPrior(e));
+    shades.push_back(exposure.LogShade(e));
+  }
+  const double top = *std::max_element(logs.begin(), logs.end());
+  KindEvidence found;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < logs.size(); ++i) {
+    const double p = std::exp(logs[i] - top);
+    sum += p;
+    found.level += p * errors[i];
+    found.marker_shade += p * shades[i];
+  }
+  found.log = top + std::log(sum * kExposureStep * LevelGrid::kStep) + std::log(kind.prior);
+  found.level /= sum;
+  found.marker_shade /= sum;
+  return found;
+}
+
+std::vector<ByKind> Fit::SunEvidence() const {
+  const double doubt = input_.prior.log_sky_error;
+  const auto log_prior = [&](double log_scale) {
+    const double z = log_scale / doubt;
+    return -0.5 * z * z - std::log(doubt * std::sqrt(2 * std::numbers::pi) / kScaleStep);
+  };
+  std::vector<std::array<double, kKinds.size()>> rough(scales_.size());
+  ParallelFor(scales_.size(), 0, [&](std::size_t i) {
     for (std::size_t k = 0; k < kKinds.size(); ++k) {
-      const auto& [first, count, prior, on_marker] = kKinds[k];
-      for (int e = 0; e < LevelGrid::kCount; ++e) {
-        double any = by_mix[first][e];
-        for (std::size_t m = first + 1; m < first + count; ++m) any = LogAdd(any, by_mix[m][e]);
-        sums[k][e] += any - std::log(static_cast<double>(count));
+      const ShadedLevels levels = InSun(scales_[i], kKinds[k]);
+      rough[i][k] = LogSum(RoughEvidence(scales_[i], kKinds[k], levels)) + log_prior(scales_[i]);
+    }
+  });
+  std::vector<ByKind> found(scales_.size());
+  ParallelFor(scales_.size(), 0, [&](std::size_t i) {
+    for (std::size_t k = 0; k < kKinds.size(); ++k) {
+      double best = rough.front()[k];
+      for (const auto& kinds : rough) best = std::max(best, kinds[k]);
+      if (rough[i][k] < best - kUnlikely) {
+        found[i][k].log = -std::numeric_limits<double>::infinity();
+        continue;
       }
+      found[i][k] = SunEvidence(scales_[i], kKinds[k]);
+      found[i][k].log += log_prior(scales_[i]);
     }
-  }
-  ByKind found;
-  for (std::size_t k = 0; k < kKinds.size(); ++k) {
-    const double log = LogSum(sums[k]);
-    found[k].log = log + std::log(kKinds[k].prior);
-    const MarkerExposure exposure = Exposure(log_scale, kKinds[k]);
-    for (int e = 0; e < LevelGrid::kCount; ++e) {
-      const double p = std::exp(sums[k][e] - log) * LevelGrid::kStep;
-      found[k].level += p * LevelGrid::At(e);
-      found[k].marker_shade += p * exposure.LogShade(LevelGrid::At(e));
-    }
-  }
+  });
   return found;
 }
 
 double Fit::OtherEvidence() const {
-  LevelFunction evidence = OfAll(kOtherShade, kOtherPlaneError, [&](const LightCell& cell, int) {
-    return PredictInOtherSun(cell, input_.sun);
-  });
-  return LogSum(evidence) - std::log(LevelGrid::kCount * LevelGrid::kStep);
+  ShadedLevels levels(
+      cells_, nullptr, input_.up, kOtherShade, kNoSkyError, kOtherPlaneError,
+      [this](const LightCell& cell, double) { return PredictInOtherSun(cell, input_.sun); });
+  return LogSum(levels.Uncoupled()) - std::log(LevelGrid::kCount * LevelGrid::kStep);
 }
 
 double Fit::CloudEvidence() const {
-  const auto under_clouds = [](const LightCell& cell, int) { return PredictUnderClouds(cell); };
-  LevelFunction evidence = OfAll(kNoShade, kPlaneError, under_clouds);
-  const LevelFunction exposure =
-      MarkerExposure(input_.marker, input_.marker.from.overcast, {}, 0.0).LogPrior();
-  for (int e = 0; e < LevelGrid::kCount; ++e) evidence[e] += exposure[e];
-  double log = LogSum(evidence);
-  if (surfaces_.contains(-1)) {
-    // A stained marker shows steps like those of shadows.
-    const double clean = OfSurface(-1, kNoShade, kPlaneError, under_clouds).front().front();
-    const double stained =
-        OfSurface(-1, kOtherShade, kPlaneError,
-                  [&](const LightCell& cell, int) { return PredictInOtherSun(cell, input_.sun); })
-            .front()
-            .front();
-    log += LogAdd(clean, std::log(kStained) + stained) - clean;
+  const auto under_clouds = [](const LightCell& cell, double) { return PredictUnderClouds(cell); };
+  const ShadedLevels levels(cells_, nullptr, input_.up, kNoShade, kNoSkyError, kPlaneError,
+                            under_clouds);
+  const MarkerExposure exposure(input_.marker, input_.marker.from.overcast, {}, 0.0, 0.0);
+  LevelFunction evidence = levels.Uncoupled();
+  for (int i = 0; i < LevelGrid::kCount; ++i) evidence[i] += exposure.LogPrior(LevelGrid::At(i));
+  std::vector<LightCell> of_marker;
+  for (const LightCell& cell : cells_) {
+    if (cell.surface < 0) of_marker.push_back(cell);
   }
-  return log;
+  if (of_marker.empty()) return LogSum(evidence);
+  // A stained marker shows steps like those of shadows.
+  const auto marker_evidence = [&](std::span<const UnmodelledShade> shade,
+                                   const ShadedLevels::Predict& predict) {
+    return ShadedLevels(of_marker, nullptr, input_.up, shade, kNoSkyError, kPlaneError, predict)
+        .At(0.0);
+  };
+  const double clean = marker_evidence(kNoShade, under_clouds);
+  const double stained = marker_evidence(kOtherShade, [this](const LightCell& cell, double) {
+    return PredictInOtherSun(cell, input_.sun);
+  });
+  return LogSum(evidence) + LogAdd(clean, std::log(kStained) + stained) - clean;
 }
 
 void Fit::Explain(double log_scale, const Kind& kind, double e, LightPosterior* found) const {
-  const std::span<const UnmodelledShade> shades(&kShades[kind.first], kind.count);
-  const int at_e = static_cast<int>(std::lround((e - LevelGrid::kFirst) / LevelGrid::kStep));
+  ShadedLevels levels = InSun(log_scale, kind);
+  levels.At(e);
+  levels.At(e);
   found->shade.assign(cells_.size(), {});
   std::vector<WeightedContrast> contrasts;
   int sunny = 0;
-  for (const auto& [surface, planes] : surfaces_) {
-    const auto by_mix = OfSurface(surface, shades, kPlaneError, InSun(log_scale));
-    std::size_t mix = 0;
-    for (std::size_t m = 1; m < by_mix.size(); ++m)
-      mix = by_mix[m][at_e] > by_mix[mix][at_e] ? m : mix;
-    const auto evidence = OfPlanes(planes, shades.subspan(mix, 1), InSun(log_scale)).front();
-    std::size_t plane = 0;
-    for (const auto& [number, members] : planes) {
-      const double u = LevelEvidence::BestLevel(evidence, plane++, e, kPlaneError);
-      for (const LightCell* cell : members) {
-        if (!cell->sunny) continue;
-        const CellPrediction at = PredictInSun(*cell, log_scale, 0.0);
-        const auto states = LevelEvidence::StatesOf(*cell, at, shades[mix], u);
-        const double open = states[kOpen] + states[kNearlyOpen];
-        const double shaded = 1 - open - states[kStray];
-        found->shade[static_cast<std::size_t>(cell - cells_.data())] = {
-            shaded, at.open + u, at.open - at.dark, shades[mix]};
-        if (cell->shaded) {
-          if (at.open - at.dark < kClearStep) continue;
-          ++found->counted.edges;
-          found->counted.edges_agreeing += open > 0.5 ? 1 : 0;
-          found->counted.contrast += open;
-          contrasts.push_back({cell, states[kOpen]});
-          continue;
-        }
-        if (cell->step) contrasts.push_back({cell, states[kDivided]});
-        if (surface < 0) {
-          found->counted.marker_steps += cell->step && shaded > 0.5 ? 1 : 0;
-        } else {
-          ++sunny;
-          found->counted.shaded_places += shaded > 0.5 ? 1 : 0;
-        }
-      }
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    const LightCell& cell = cells_[i];
+    if (!cell.sunny) continue;
+    const double u = levels.LevelErrorOf(i);
+    const CellPrediction at = PredictInSun(cell, log_scale, 0.0);
+    const auto around = levels.StatePriorOf(i, at);
+    const auto states = LevelEvidence::StatesOf(cell, at, around, u);
+    const double open = states[kOpen] + states[kGap] + states[kNearlyOpen];
+    const double shaded = 1 - open - states[kStray];
+    found->shade[i] = {shaded, at.open + u, at.open - at.dark, around};
+    if (cell.shaded) {
+      if (at.open - at.dark < kClearStep) continue;
+      ++found->counted.edges;
+      found->counted.edges_agreeing += open > 0.5 ? 1 : 0;
+      found->counted.contrast += open;
+      contrasts.push_back({&cell, states[kOpen] + states[kGap]});
+      continue;
+    }
+    if (cell.step) contrasts.push_back({&cell, states[kDivided]});
+    if (cell.surface < 0) {
+      found->counted.marker_steps += cell.step && shaded > 0.5 ? 1 : 0;
+    } else {
+      ++sunny;
+      found->counted.shaded_places += shaded > 0.5 ? 1 : 0;
     }
   }
   if (found->counted.edges > 0) found->counted.contrast /= found->counted.edges;
@@ -280,14 +270,7 @@ void Fit::Explain(double log_scale, const Kind& kind, double e, LightPosterior* 
 LightPosterior Fit::Solve() const {
   LightPosterior found;
   const LightPrior& prior = input_.prior;
-  std::vector<ByKind> logs(scales_.size());
-  ParallelFor(scales_.size(), 0, [&](std::size_t i) {
-    logs[i] = SunEvidence(scales_[i]);
-    const double z = scales_[i] / prior.log_sky_error;
-    for (KindEvidence& kind : logs[i])
-      kind.log += -0.5 * z * z -
-                  std::log(prior.log_sky_error * std::sqrt(2 * std::numbers::pi) / kScaleStep);
-  });
+  const std::vector<ByKind> logs = SunEvidence();
   double top = logs.front().front().log;
   for (const ByKind& kinds : logs) {
     for (const KindEvidence& kind : kinds) top = std::max(top, kind.log);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "base/vector.h"
@@ -15,15 +16,17 @@ struct LightFitInput {
   MarkerLight marker;
   LinearRgb sun;  ///< On a surface that faces it: lux.
   Vec3 up;        ///< Unit, marker coordinates.
+  Vec3 to_sun;    ///< Unit, marker coordinates.
   LightPrior prior;
 };
 
 /// Estimate of unmodelled shadow on one cell that the phantoms leave sunlit.
 struct CellShade {
-  double shaded = 0.0;     ///< Probability that unmodelled things shade it or a part of it.
-  double level = 0.0;      ///< Brightness of its surface in the sun, as the samples have it.
-  double depth = 0.0;      ///< By how much it is darker in shade, logarithmic.
-  UnmodelledShade around;  ///< The most probable of its surface.
+  double shaded = 0.0;  ///< Probability that unmodelled things shade it or a part of it.
+  double level = 0.0;   ///< Brightness of its surface in the sun, as the samples have it.
+  double depth = 0.0;   ///< By how much it is darker in shade, logarithmic.
+  /// Probabilities of its states by the shade around it.
+  std::array<double, kCellStates> states_around{};
 };
 
 /// Numbers of cells from which the light was estimated.

@@ -20,21 +20,26 @@ struct MarkerLight {
 /// geometry shades the marker.
 class MarkerExposure {
  public:
-  /// `sky`: all light but the sun's. `shaded`: the share of the scene in unmodelled shade.
-  MarkerExposure(const MarkerLight& marker, LinearRgb sky, LinearRgb sun, double shaded);
+  /// `sky`: all light but the sun's. `shaded`: the expected share of unmodelled shade where the
+  /// marker lies. `taken`: the mean share of `sky` that its caster
+  /// hides there.
+  MarkerExposure(const MarkerLight& marker, LinearRgb sky, LinearRgb sun, double shaded,
+                 double taken);
 
   /// Logarithmic prior density of e; flat without a marker.
-  LevelFunction LogPrior() const;
+  double LogPrior(double e) const;
   /// Logarithm of the unshaded light on the marker over that on its brightest part, at the error e.
   /// Returns 0 where all of the sun is the most probable.
   double LogShade(double e) const;
 
  private:
-  double Density(double e, double share) const;
+  double Density(double e, LinearRgb light) const;
+  double ShadedDensity(double e) const;
 
   bool known_ = false;
   double predicted_ = 0.0;
   LinearRgb sky_, sun_;
+  double taken_ = 0.0;
   double open_ = 0.0, half_ = 0.0, dark_ = 1.0;  // Prior probabilities; half_: of each share.
 };
 

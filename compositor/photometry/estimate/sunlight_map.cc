@@ -1,11 +1,15 @@
 #include "compositor/photometry/estimate/sunlight_map.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <map>
+#include <utility>
 
 #include "base/quantile.h"
+#include "compositor/light/sampling.h"
 #include "compositor/photometry/estimate/cell_model.h"
 #include "compositor/photometry/estimate/level_evidence.h"
 #include "compositor/photometry/estimate/light_cells.h"
@@ -23,8 +27,40 @@ constexpr double kNoSun = 0.1, kAllSun = 0.9;
 struct PlaneLight {
   const LightCell* cell = nullptr;  // Any of them.
   double level = 0.0, depth = 0.0;
-  UnmodelledShade around;
   int cells = 0;
+};
+
+/// What shade is around a place: that around the nearest cell across the sun's rays.
+class ShadeAround {
+ public:
+  ShadeAround(const std::vector<LightCell>& cells, const LightPosterior& posterior, Vec3 to_sun)
+      : posterior_(posterior), across_(to_sun) {
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+      if (posterior.shade[k].depth > 0.0)
+        places_.emplace_back(Across(cells[k].sunny->place.xyz), k);
+    }
+  }
+  const std::array<double, kCellStates>& At(Vec3 place) const {
+    const auto [x, y] = Across(place);
+    std::size_t nearest = 0;
+    double least = 1e300;
+    for (const auto& [at, cell] : places_) {
+      const double distance = std::hypot(at.first - x, at.second - y);
+      if (distance >= least) continue;
+      least = distance;
+      nearest = cell;
+    }
+    return posterior_.shade[nearest].states_around;
+  }
+
+ private:
+  std::pair<double, double> Across(Vec3 place) const {
+    return {Dot(place, across_.tangent), Dot(place, across_.bitangent)};
+  }
+
+  const LightPosterior& posterior_;
+  TangentFrame across_;
+  std::vector<std::pair<std::pair<double, double>, std::size_t>> places_;
 };
 
 std::map<int, std::vector<PlaneLight>> PlanesOf(const std::vector<LightCell>& cells,
@@ -34,7 +70,6 @@ std::map<int, std::vector<PlaneLight>> PlanesOf(const std::vector<LightCell>& ce
     if (posterior.shade[k].depth <= 0.0) continue;
     PlaneLight& plane = planes[cells[k].plane];
     plane.cell = &cells[k];
-    plane.around = posterior.shade[k].around;
     ++plane.cells;
     plane.level += (posterior.shade[k].level - plane.level) / plane.cells;
     plane.depth += (posterior.shade[k].depth - plane.depth) / plane.cells;
@@ -50,6 +85,7 @@ SunTransmittanceMap MapSunlight(const PhantomRays& phantoms, const SurfaceSample
                                 const std::vector<LightCell>& cells,
                                 const LightPosterior& posterior, Vec3 to_sun) {
   const auto planes = PlanesOf(cells, posterior);
+  const ShadeAround around(cells, posterior, to_sun);
   const auto& all = samples.samples();
   const std::vector<std::uint8_t> sunlit = FindSunlitSamples(phantoms, samples, to_sun);
   std::vector<std::vector<std::uint32_t>> by_cell(samples.cells());
@@ -74,8 +110,8 @@ SunTransmittanceMap MapSunlight(const PhantomRays& phantoms, const SurfaceSample
     cell.shaded.reset();
     cell.step = FindStep(samples, members);
     const CellPrediction at = PredictAtLevel(cell, plane->level, posterior.log_sky);
-    const auto states = LevelEvidence::StatesOf(cell, at, plane->around, 0.0);
-    const double open = states[kOpen] + states[kStray] + states[kNearlyOpen];
+    const auto states = LevelEvidence::StatesOf(cell, at, around.At(first.point.xyz), 0.0);
+    const double open = states[kOpen] + states[kGap] + states[kStray] + states[kNearlyOpen];
     const double ambient = std::exp(-plane->depth);
     for (std::size_t k = 0; k < members.size(); ++k) {
       const double share = (std::exp(values[k] - plane->level) - ambient) / (1 - ambient);

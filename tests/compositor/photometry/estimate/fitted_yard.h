@@ -32,6 +32,7 @@ class FittedYard : public ShadowLight {
     found.light = FitLight(found.cells, {.marker = marker,
                                          .sun = day.SunNormalIrradiance(),
                                          .up = {0, 0, 1},
+                                         .to_sun = found.to_sun,
                                          .prior = {0.5, 0.45, 0.05, 1.2}});
     return found;
   }

@@ -4,8 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
+#include <vector>
 
+#include "compositor/photometry/estimate/shade_field.h"
+#include "compositor/photometry/estimate/shaded_levels.h"
 #include "compositor/photometry/heading_from_shadows.h"
 #include "tests/compositor/gentle_response.h"
 #include "tests/compositor/photometry/estimate/fitted_yard.h"
@@ -137,26 +142,98 @@ MarkerLight Marker() {
 
 TEST(MarkerExposure, BindsTheExposureScaleAndTellsShade) {
   const MarkerLight marker = Marker();
-  const MarkerExposure open(marker, {1, 1, 1}, marker.sun, 0.01);
+  const MarkerExposure open(marker, {1, 1, 1}, marker.sun, 0.01, 0.0);
   EXPECT_EQ(open.LogShade(0.0), 0.0);
-  const LevelFunction prior = open.LogPrior();
+  LevelFunction prior;
+  for (int i = 0; i < LevelGrid::kCount; ++i) prior[i] = open.LogPrior(LevelGrid::At(i));
   EXPECT_NEAR(LogSum(prior), 0.0, 0.02) << "it is a density";
   const auto best = std::max_element(prior.begin(), prior.end()) - prior.begin();
   EXPECT_NEAR(LevelGrid::At(static_cast<int>(best)), 0.0, LevelGrid::kStep);
   // Without any sun, the unit of the samples is eleven times too bright.
   EXPECT_NEAR(open.LogShade(std::log(11.0)), std::log(11.0), 1e-9);
-  EXPECT_EQ(MarkerExposure({}, {1, 1, 1}, {}, 0.5).LogShade(1.0), 0.0) << "no marker";
+  EXPECT_EQ(MarkerExposure({}, {1, 1, 1}, {}, 0.5, 0.0).LogShade(1.0), 0.0) << "no marker";
 }
 
 TEST(MarkerExposure, TakesDapplesForShade) {
   MarkerLight marker = Marker();
   const double part = std::log(11.0 / 8.0);
-  const MarkerExposure even(marker, {1, 1, 1}, marker.sun, 0.3);
+  const MarkerExposure even(marker, {1, 1, 1}, marker.sun, 0.3, 0.0);
   marker.dappled = true;
-  const MarkerExposure dappled(marker, {1, 1, 1}, marker.sun, 0.3);
-  const int at = static_cast<int>(std::lround(-LevelGrid::kFirst / LevelGrid::kStep));
-  EXPECT_LT(dappled.LogPrior()[at], even.LogPrior()[at]);
+  const MarkerExposure dappled(marker, {1, 1, 1}, marker.sun, 0.3, 0.0);
+  EXPECT_LT(dappled.LogPrior(0.0), even.LogPrior(0.0));
   EXPECT_NEAR(dappled.LogShade(part), part, 1e-9);
+}
+
+TEST(MarkerExposure, AllowsForTheSkyThatACrownHides) {
+  const MarkerLight marker = Marker();
+  // Without any sun and a fifth of the sky.
+  const double dim = std::log(11.0 / 0.8);
+  const MarkerExposure beside_wall(marker, {1, 1, 1}, marker.sun, 0.9, 0.0);
+  const MarkerExposure beneath_crown(marker, {1, 1, 1}, marker.sun, 0.9, 0.2);
+  EXPECT_GT(beneath_crown.LogPrior(dim), beside_wall.LogPrior(dim) + 3.0);
+  EXPECT_NEAR(beneath_crown.LogShade(dim), dim, 1e-9);
+}
+
+/// Cells of two surfaces in a row, every 0.2 m, beneath a sun in the zenith.
+std::vector<LightCell> Row(int count) {
+  std::vector<LightCell> cells(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i) {
+    LightCell& cell = cells[static_cast<std::size_t>(i)];
+    cell.surface = i % 2;
+    cell.plane = i % 2;
+    cell.normal = {0, 0, 1};
+    cell.albedo = {0.3, 0.3, 0.3};
+    cell.sun = {10, 10, 10};
+    cell.sunny.emplace();
+    cell.sunny->place = {{0.2 * i, 0, 0}};
+    cell.sunny->light = {{4, 4, 4}, {0, 0, 0}, {4, 4, 4}};
+  }
+  return cells;
+}
+
+TEST(ShadeField, ExpectsAroundAPlaceWhatItsNeighboursShow) {
+  const std::vector<LightCell> cells = Row(20);
+  const ShadeField field(cells, {0, 0, 1});
+  // Two mixes: the second on the last ten cells.
+  std::vector<double> posterior;
+  for (int i = 0; i < 20; ++i)
+    posterior.insert(posterior.end(), {i < 10 ? 1.0 : 0.0, i < 10 ? 0.0 : 1.0});
+  const std::vector<double> prior = field.Prior(posterior, 2);
+  ASSERT_EQ(prior.size(), 2 * 21u) << "the marker has the last row";
+  for (std::size_t i = 0; i < 21; ++i) EXPECT_NEAR(prior[2 * i] + prior[2 * i + 1], 1.0, 1e-12);
+  EXPECT_GT(prior[0], 0.8);
+  EXPECT_LT(prior[2 * 19], 0.2);
+  EXPECT_NEAR(prior[2 * 9], 0.5, 0.15) << "between both";
+  EXPECT_NEAR(prior[2 * 20], prior[0], 0.1) << "the marker lies beside the first";
+}
+
+TEST(ShadedLevels, TakesADarkSurfaceForShadedWhereItsNeighboursAre) {
+  // The first surface shows sun at one end and shade at the other. The second one is seen at one
+  // end alone; its color is unknown.
+  const auto level_of_second = [](bool at_shaded_end) {
+    std::vector<LightCell> cells;
+    for (LightCell& cell : Row(40)) {
+      const double x = cell.sunny->place.xyz.x;
+      const bool shaded = x > 4.0;
+      if (cell.surface == 1 && shaded != at_shaded_end) continue;
+      const double light = (cell.surface == 1 ? 3.6 : shaded ? 3.6 : 14.0);
+      cell.sunny->log_rgb.fill(std::log(light * 0.3 / std::numbers::pi));
+      cells.push_back(cell);
+    }
+    const ShadeField field(cells, {0, 0, 1});
+    constexpr std::array<UnmodelledShade, 3> kMixes{{{0.02}, {0.4}, {0.95}}};
+    constexpr std::array kNoError{ShadedLevels::SkyError{}};
+    ShadedLevels levels(cells, &field, {0, 0, 1}, kMixes, kNoError, 0.15,
+                        [](const LightCell& cell, double) { return PredictInSun(cell, 0.0, 0.0); });
+    levels.At(0.0);
+    levels.At(0.0);
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      if (cells[i].surface == 1) return levels.LevelErrorOf(i);
+    }
+    return 0.0;
+  };
+  EXPECT_NEAR(level_of_second(true), 0.0, 0.1) << "of the described color, in shade";
+  EXPECT_NEAR(level_of_second(false), std::log(3.6 / 14.0), 0.1) << "of a darker color, in the sun";
 }
 
 }  // namespace
