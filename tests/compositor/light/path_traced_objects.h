@@ -32,8 +32,10 @@ class PathTracedObjects {
     const auto add = [&](const Model& model, int object) {
       for (const Mesh& mesh : model.meshes) {
         meshes.push_back({mesh.positions, mesh.indices, false});
-        const auto& [r, g, b] = model.materials[mesh.material].base_color;
-        sources_.push_back({&mesh, {r, g, b}, object});
+        const Material& material = model.materials[mesh.material];
+        const auto& [r, g, b] = material.base_color;
+        const auto& [u, v, w] = material.detail.transmission.color;
+        sources_.push_back({&mesh, {r, g, b}, {u, v, w}, object});
       }
     };
     for (const Model* model : phantoms) add(*model, -1);
@@ -52,9 +54,29 @@ class PathTracedObjects {
     if (!rays_->Intersect(RayTargets::kEverything, eye, direction, &hit)) return {};
     const Source& source = sources_[hit.mesh];
     if (source.object < 0) return {};
-    const Mesh* mesh = source.mesh;
+    const Vec3 at = eye + direction * hit.distance_m;
+    const auto light = [&](Vec3 towards) { return LightOn(hit, at, towards, strata, seed); };
+    LinearRgb leaving = light(-direction) * source.albedo;
+    if (Luminance(source.transmittance) > 0.0) {
+      leaving = leaving + light(direction) * source.transmittance;
+    }
+    return Seen{source.object, leaving * std::numbers::inv_pi};
+  }
+
+ private:
+  struct Source {
+    const Mesh* mesh = nullptr;
+    LinearRgb albedo, transmittance;
+    int object = -1;  ///< −1: a phantom.
+  };
+
+  static constexpr double kOffset_m = 1e-5;
+
+  /// Irradiance of the side of a triangle that faces `towards`.
+  LinearRgb LightOn(const RayHit& hit, Vec3 flat, Vec3 towards, int strata,
+                    std::uint32_t seed) const {
+    const Mesh* mesh = sources_[hit.mesh].mesh;
     const std::array<double, 3> weights{1.0 - hit.u - hit.v, hit.u, hit.v};
-    const Vec3 flat = eye + direction * hit.distance_m;
     std::array<Vec3, 3> corners, normals;
     for (int k = 0; k < 3; ++k) {
       const std::uint32_t v = mesh->indices[3 * hit.triangle + k];
@@ -62,7 +84,7 @@ class PathTracedObjects {
       normals[k] = ToVec3(mesh->normals[v]);
     }
     Vec3 face = Normalized(Cross(corners[1] - corners[0], corners[2] - corners[0]));
-    if (Dot(face, direction) > 0.0) face = -face;
+    if (Dot(face, towards) < 0.0) face = -face;
     Vec3 normal, point;
     for (int k = 0; k < 3; ++k) {
       if (Dot(normals[k], face) < 0.0) normals[k] = -normals[k];
@@ -72,19 +94,9 @@ class PathTracedObjects {
     }
     normal = Normalized(normal);
     point = point + face * kOffset_m;
-    const LinearRgb light =
-        tracer_.Irradiance({point}, normal, strata, seed) + Sunlight(point, normal, strata, seed);
-    return Seen{source.object, light * source.albedo * std::numbers::inv_pi};
+    return tracer_.Irradiance({point}, normal, strata, seed) +
+           Sunlight(point, normal, strata, seed);
   }
-
- private:
-  struct Source {
-    const Mesh* mesh = nullptr;
-    LinearRgb albedo;
-    int object = -1;  ///< −1: a phantom.
-  };
-
-  static constexpr double kOffset_m = 1e-5;
 
   static std::vector<const Model*> Joined(std::vector<const Model*> first,
                                           const std::vector<const Model*>& second) {

@@ -22,15 +22,18 @@ namespace pleinair::compositor::testing {
 /// A textbook path tracer (Kajiya 1986, "The Rendering Equation") for diffuse models with one color
 /// per material. It is an independent reference: it shares only models and Embree with the code
 /// under test. Russian roulette ends each path. The path samples the sun at each surface and the
-/// sky where it leaves the scene. Surfaces are two-sided. The marker and world frames coincide.
+/// sky where it leaves the scene. Surfaces are two-sided, and may transmit diffusely. The marker
+/// and world frames coincide.
 class PathTracer {
  public:
   PathTracer(const std::vector<const Model*>& models, const sky::SkyModel& day)
       : device_(rtcNewDevice(nullptr)), scene_(rtcNewScene(device_.get())), day_(day) {
     for (const Model* model : models) {
       for (const Mesh& mesh : model->meshes) {
-        const auto& [r, g, b] = model->materials[mesh.material].base_color;
-        Add(mesh, {r, g, b});
+        const Material& material = model->materials[mesh.material];
+        const auto& [r, g, b] = material.base_color;
+        const auto& [u, v, w] = material.detail.transmission.color;
+        Add(mesh, {{r, g, b}, {u, v, w}});
       }
     }
     rtcCommitScene(scene_.get());
@@ -76,7 +79,11 @@ class PathTracer {
 
   static constexpr double kOffsetM = 1e-4;
 
-  void Add(const Mesh& mesh, LinearRgb albedo) {
+  struct Leaf {
+    LinearRgb reflectance, transmittance;
+  };
+
+  void Add(const Mesh& mesh, const Leaf& leaf) {
     const RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
     auto* corners = static_cast<std::array<float, 3>*>(
         rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
@@ -89,7 +96,7 @@ class PathTracer {
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene_.get(), geometry);
     rtcReleaseGeometry(geometry);
-    albedos_.push_back(albedo);
+    leaves_.push_back(leaf);
   }
 
   /// A cosine-distributed direction around `normal` (Malley's method).
@@ -128,13 +135,25 @@ class PathTracer {
       }
       Vec3 normal = Normalized(Vec3{hit.hit.Ng_x, hit.hit.Ng_y, hit.hit.Ng_z});
       if (Dot(normal, way) > 0.0) normal = -normal;
-      from = from + way * hit.ray.tfar + normal * kOffsetM;
-      const LinearRgb albedo = albedos_[hit.hit.geomID];
-      share = share * albedo;
+      const Vec3 at = from + way * hit.ray.tfar;
+      const auto& [reflectance, transmittance] = leaves_[hit.hit.geomID];
       const double cosine = Dot(normal, day_.ToSun().xyz);
-      if (cosine > 0.0 && IsLitFrom(day_.ToSun().xyz, from)) {
-        sum = sum + share * day_.SunNormalIrradiance() * (cosine * std::numbers::inv_pi);
+      const LinearRgb to_sun = cosine > 0.0 ? reflectance : transmittance;
+      if (Luminance(to_sun) > 0.0 &&
+          IsLitFrom(day_.ToSun().xyz, at + normal * (cosine > 0.0 ? kOffsetM : -kOffsetM))) {
+        sum = sum + share * to_sun * day_.SunNormalIrradiance() *
+                        (std::fabs(cosine) * std::numbers::inv_pi);
       }
+      // The path goes on at one side, more often where more light comes from.
+      const double through =
+          Luminance(transmittance) / std::fmax(1e-9, Luminance(reflectance + transmittance));
+      if (through > 0.0 && (*random)() < through) {
+        share = share * transmittance * (1.0 / through);
+        normal = -normal;
+      } else {
+        share = share * reflectance * (1.0 / (1.0 - through));
+      }
+      from = at + normal * kOffsetM;
       // Russian roulette: surviving paths are weighted for the ended ones.
       const double goes_on = std::fmin(0.9, std::fmax(std::fmax(share.r, share.g), share.b));
       if ((*random)() >= goes_on) return sum;
@@ -147,7 +166,7 @@ class PathTracer {
   std::unique_ptr<RTCDeviceTy, Release> device_;
   std::unique_ptr<RTCSceneTy, Release> scene_;
   const sky::SkyModel& day_;
-  std::vector<LinearRgb> albedos_;
+  std::vector<Leaf> leaves_;  // By geometry.
   LinearRgb land_;
 };
 
