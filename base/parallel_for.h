@@ -29,4 +29,12 @@ void ParallelFor(std::size_t chunks, int threads, const Body& body) {
   work();
 }
 
+/// Calls `body(first, last)` once for every block of `size` indices below `count`, in parallel as
+/// ParallelFor(). The last block may be smaller.
+template <typename Body>
+void ParallelForBlocks(std::size_t count, std::size_t size, const Body& body) {
+  ParallelFor((count + size - 1) / size, 0,
+              [&](std::size_t block) { body(block * size, std::min(count, (block + 1) * size)); });
+}
+
 }  // namespace pleinair

@@ -15,6 +15,21 @@ constexpr std::int32_t kSteps = 256;  // In a texel.
 // Corners beyond the map by more than this are moved there: their products must fit into 64 bits.
 constexpr float kFarOff = 1e6F;
 constexpr std::size_t kCornersPerBlock = 8192;
+// Most texels of wider rows may lie outside of a thin triangle.
+constexpr int kWideRow = 12;
+
+/// Narrows a row of texels to those where a function is not negative: `at_first` at texel 0, with a
+/// change of `right` from one texel to the next.
+void NarrowRow(std::int64_t at_first, std::int64_t right, int* begin, int* end) {
+  if (right == 0) return;
+  const double zero = std::floor(-static_cast<double>(at_first) / static_cast<double>(right));
+  const int texel = static_cast<int>(std::clamp(zero, -1.0, static_cast<double>(*end)));
+  if (right > 0) {
+    *begin = std::max(*begin, texel);
+  } else {
+    *end = std::min(*end, texel + 1);
+  }
+}
 
 /// First texel whose centre is not below a coordinate in 1/256 texel.
 int FirstCentre(std::int32_t at) {
@@ -35,7 +50,10 @@ DepthRaster::DepthRaster(const TriangleSpan& triangles, const glm::dmat4& texel_
     : indices_(triangles.indices), corners_(triangles.positions.size()) {
   const glm::mat4 map(texel_from_model);
   const std::size_t count = corners_.size();
-  ParallelFor((count + kCornersPerBlock - 1) / kCornersPerBlock, 0, [&](std::size_t block) {
+  const std::size_t blocks = (count + kCornersPerBlock - 1) / kCornersPerBlock;
+  std::vector<glm::ivec4> extents(blocks, {INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN});
+  ParallelFor(blocks, 0, [&](std::size_t block) {
+    glm::ivec4 extent = extents[block];
     const std::size_t last = std::min(count, (block + 1) * kCornersPerBlock);
     for (std::size_t i = block * kCornersPerBlock; i < last; ++i) {
       const auto& [x, y, z] = triangles.positions[i];
@@ -43,20 +61,22 @@ DepthRaster::DepthRaster(const TriangleSpan& triangles, const glm::dmat4& texel_
       const auto fixed = [](float v) {
         return static_cast<std::int32_t>(std::lrintf(std::clamp(v, -kFarOff, kFarOff) * kSteps));
       };
-      corners_[i] = Corner{fixed(at.x), fixed(at.y), std::clamp(at.z, 0.0F, 1.0F)};
+      const Corner corner{fixed(at.x), fixed(at.y), std::clamp(at.z, 0.0F, 1.0F)};
+      corners_[i] = corner;
+      extent = {std::min(extent.x, corner.x), std::min(extent.y, corner.y),
+                std::max(extent.z, corner.x), std::max(extent.w, corner.y)};
     }
+    extents[block] = extent;
   });
-  std::int32_t low_x = INT32_MAX, low_y = INT32_MAX, high_x = INT32_MIN, high_y = INT32_MIN;
-  for (const Corner& corner : corners_) {
-    low_x = std::min(low_x, corner.x);
-    low_y = std::min(low_y, corner.y);
-    high_x = std::max(high_x, corner.x);
-    high_y = std::max(high_y, corner.y);
-  }
   if (corners_.empty()) return;
+  glm::ivec4 extent = extents[0];
+  for (const glm::ivec4& other : extents) {
+    extent = {std::min(extent.x, other.x), std::min(extent.y, other.y), std::max(extent.z, other.z),
+              std::max(extent.w, other.w)};
+  }
   const auto inside = [side](std::int32_t at) { return std::clamp(at / kSteps, -1, side); };
-  bounds_ = {std::max(0, inside(low_x)), std::max(0, inside(low_y)),
-             std::min(side, inside(high_x) + 1), std::min(side, inside(high_y) + 1)};
+  bounds_ = {std::max(0, inside(extent.x)), std::max(0, inside(extent.y)),
+             std::min(side, inside(extent.z) + 1), std::min(side, inside(extent.w) + 1)};
 }
 
 void DepthRaster::Draw(Image<float>* depths) const {
@@ -78,15 +98,14 @@ void DepthRaster::DrawRows(int first, int last, Image<float>* depths) const {
   for (std::size_t i = 0; i + 2 < indices_.size(); i += 3) {
     const Corner &a = corners_[indices_[i]], &b = corners_[indices_[i + 1]],
                  &c = corners_[indices_[i + 2]];
-    const int y0 = std::max(FirstCentre(std::min({a.y, b.y, c.y})), first);
-    const int y1 = std::min(FirstCentre(std::max({a.y, b.y, c.y}) + 1), last);
-    if (y0 >= y1) continue;
     const std::int64_t abx = b.x - a.x, aby = b.y - a.y, acx = c.x - a.x, acy = c.y - a.y;
     const std::int64_t area = abx * acy - aby * acx;
     if (area <= 0) continue;
+    const int y0 = std::max(FirstCentre(std::min({a.y, b.y, c.y})), first);
+    const int y1 = std::min(FirstCentre(std::max({a.y, b.y, c.y}) + 1), last);
     const int x0 = std::max(FirstCentre(std::min({a.x, b.x, c.x})), bounds_.x0);
     const int x1 = std::min(FirstCentre(std::max({a.x, b.x, c.x}) + 1), bounds_.x1);
-    if (x0 >= x1) continue;
+    if (y0 >= y1 || x0 >= x1) continue;
     // Twice the areas opposite to the corners, at the first texel's centre, and their changes.
     const std::int64_t px = std::int64_t{x0} * kSteps + kSteps / 2 - a.x;
     const std::int64_t py = std::int64_t{y0} * kSteps + kSteps / 2 - a.y;
@@ -99,11 +118,19 @@ void DepthRaster::DrawRows(int first, int last, Image<float>* depths) const {
     const float depth_right =
         to_b * static_cast<float>(b_right) + to_c * static_cast<float>(c_right);
     for (int y = y0; y < y1; ++y, row_b += b_up, row_c += c_up) {
+      const std::int64_t row_a = area - row_b - row_c;
+      int begin = 0, end = x1 - x0;
+      if (end > kWideRow) {
+        NarrowRow(row_a, a_right, &begin, &end);
+        NarrowRow(row_b, b_right, &begin, &end);
+        NarrowRow(row_c, c_right, &begin, &end);
+      }
       float* row = &(*depths)(x0, y);
       const float depth =
           a.depth + to_b * static_cast<float>(row_b) + to_c * static_cast<float>(row_c);
-      std::int64_t at_a = area - row_b - row_c, at_b = row_b, at_c = row_c;
-      for (int x = 0; x < x1 - x0; ++x, at_a += a_right, at_b += b_right, at_c += c_right) {
+      std::int64_t at_a = row_a + begin * a_right, at_b = row_b + begin * b_right,
+                   at_c = row_c + begin * c_right;
+      for (int x = begin; x < end; ++x, at_a += a_right, at_b += b_right, at_c += c_right) {
         if ((at_a | at_b | at_c) < 0) continue;  // One of them is negative.
         row[x] = std::min(row[x], depth + static_cast<float>(x) * depth_right);
       }

@@ -47,6 +47,7 @@ class SunFootprint {
   bool Touches(const glm::vec2& low, const glm::vec2& high) const;
 
  private:
+  using Rows = std::array<std::uint64_t, kCells>;
   struct Cells {
     int first_row = 0, last_row = 0;
     std::uint64_t columns = 0;  // One bit each.
@@ -55,7 +56,7 @@ class SunFootprint {
 
   float cells_per_unit_ = 0.0F;
   glm::vec2 reach_{0.0F};
-  std::array<std::uint64_t, kCells> rows_{};
+  Rows rows_{};
 };
 
 }  // namespace pleinair::compositor

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "base/parallel_for.h"
+
 namespace pleinair::compositor {
 
 namespace {
@@ -13,6 +15,7 @@ constexpr int kCoarseReach_px = 8;
 // Pixels whose ratio and blur take the software renderer about as long as drawing a triangle once
 // more. They decide on speed alone.
 constexpr int kPixelsPerTriangle = 6, kBlurredPixelsPerTriangle = 2;
+constexpr std::size_t kMovedVerticesPerBlock = 16'384;
 
 }  // namespace
 
@@ -58,10 +61,13 @@ SunFootprint DrawReduction::FootprintOf(const SunWindow& window,
   SunFootprint footprint(window);
   std::vector<glm::vec2> at;
   for (std::size_t object = 0; object < objects_.size(); ++object) {
-    at.clear();
-    for (const glm::vec3& position : object_positions_[object]) {
-      at.push_back(window.At(glm::vec3(objects_moved[object] * glm::vec4(position, 1.0F))));
-    }
+    const std::vector<glm::vec3>& positions = object_positions_[object];
+    at.resize(positions.size());
+    ParallelForBlocks(at.size(), kMovedVerticesPerBlock, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) {
+        at[i] = window.At(glm::vec3(objects_moved[object] * glm::vec4(positions[i], 1.0F)));
+      }
+    });
     footprint.Include(at, objects_[object].indices());
   }
   return footprint;

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
+
+#include "base/parallel_for.h"
 
 namespace pleinair::compositor {
 namespace {
@@ -12,6 +15,8 @@ namespace {
 // Samples lie anywhere in a pixel, and a renderer rounds vertices; both within a pixel.
 constexpr float kRounding_px = 2.0F;
 constexpr float kNearest = 0.9F;  // Share of the near plane's depth, also for rounding.
+
+constexpr std::size_t kTileBlock = 16'384;
 
 /// Bounds of what is drawn of a triangle, pixels.
 struct DrawnBounds {
@@ -22,6 +27,22 @@ struct DrawnBounds {
     low = glm::min(low, at);
     high = glm::max(high, at);
     is_known = is_known && glm::all(glm::lessThan(glm::abs(at), glm::vec2(1e30F)));
+  }
+};
+
+/// The tiles that a vertex may affect: those of a triangle lie between its corners'.
+struct VertexTiles {
+  // From −1 to the number of tiles, both of which are outside of the image.
+  std::int16_t first_x = 0, first_y = 0, last_x = -1, last_y = -1;
+  // False before the near plane, or if a coordinate is not a number.
+  bool is_known = false;
+
+  bool operator==(const VertexTiles&) const = default;
+  /// The smallest range around both.
+  VertexTiles UnitedWith(const VertexTiles& other) const {
+    return {std::min(first_x, other.first_x), std::min(first_y, other.first_y),
+            std::max(last_x, other.last_x), std::max(last_y, other.last_y),
+            is_known && other.is_known};
   }
 };
 
@@ -51,11 +72,12 @@ ImageTiles::Range ImageTiles::RangeOf(glm::vec2 low, glm::vec2 high) const {
           glm::min(glm::ivec2(glm::min(high, size) / side), tiles_ - 1)};
 }
 
-void ImageTiles::Include(glm::vec2 low, glm::vec2 high) {
-  const auto [first, last] = RangeOf(low, high);
-  for (int y = first.y; y <= last.y; ++y) {
+void ImageTiles::Include(glm::vec2 low, glm::vec2 high) { Include(RangeOf(low, high)); }
+
+void ImageTiles::Include(const Range& range) {
+  for (int y = range.first.y; y <= range.last.y; ++y) {
     const auto row = included_.begin() + static_cast<std::ptrdiff_t>(y) * tiles_.x;
-    if (last.x >= first.x) std::fill(row + first.x, row + last.x + 1, 1);
+    if (range.last.x >= range.first.x) std::fill(row + range.first.x, row + range.last.x + 1, 1);
   }
 }
 
@@ -64,25 +86,70 @@ void ImageTiles::Include(const SceneProjection& image, std::span<const glm::vec3
   const glm::vec2 size(size_px_);
   const float margin_px = kRounding_px + static_cast<float>(image.spread_px);
   const float near_m = kNearest * image.near_m;
-  for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
-    std::array<glm::vec4, 3> clip{};
-    for (std::size_t k = 0; k < 3; ++k) {
-      clip[k] = image.clip_from_position * glm::vec4(positions[indices[i + k]], 1.0F);
+  const auto clip_of = [&](std::uint32_t vertex) {
+    return image.clip_from_position * glm::vec4(positions[vertex], 1.0F);
+  };
+  const auto tiles_of = [&](std::uint32_t vertex) {
+    const glm::vec4 clip = clip_of(vertex);
+    if (!(clip.w >= near_m)) return VertexTiles{};
+    const glm::vec2 at = (0.5F * glm::vec2(clip) / clip.w + 0.5F) * size;
+    if (!glm::all(glm::lessThan(glm::abs(at), glm::vec2(1e30F)))) return VertexTiles{};
+    const auto tile = [](float at_px, int count) {
+      return static_cast<std::int16_t>(
+          std::clamp(std::floor(at_px / kSide_px), -1.0F, static_cast<float>(count)));
+    };
+    return VertexTiles{tile(at.x - margin_px, tiles_.x), tile(at.y - margin_px, tiles_.y),
+                       tile(at.x + margin_px, tiles_.x), tile(at.y + margin_px, tiles_.y), true};
+  };
+  // A few triangles of a large mesh need few of its vertices.
+  std::vector<VertexTiles> vertices(indices.size() < positions.size() ? 0 : positions.size());
+  ParallelForBlocks(vertices.size(), kTileBlock, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      vertices[i] = tiles_of(static_cast<std::uint32_t>(i));
     }
-    DrawnBounds bounds;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const glm::vec4 &from = clip[k], &to = clip[(k + 1) % 3];
-      // Written so that a depth which is not a number is in front.
-      if (!(from.w < near_m)) bounds.Add(from, size);
-      if ((from.w < near_m) != (to.w < near_m)) {
-        bounds.Add(glm::mix(from, to, (near_m - from.w) / (to.w - from.w)), size);
+  });
+  const auto corner_of = [&](std::uint32_t vertex) {
+    return vertices.empty() ? tiles_of(vertex) : vertices[vertex];
+  };
+  const std::size_t triangles = indices.size() / 3;
+  std::vector<ImageTiles> found((triangles + kTileBlock - 1) / kTileBlock,
+                                ImageTiles(size_px_.x, size_px_.y));
+  ParallelForBlocks(triangles, kTileBlock, [&](std::size_t first, std::size_t last) {
+    ImageTiles& own = found[first / kTileBlock];
+    VertexTiles before;
+    for (std::size_t i = 3 * first; i < 3 * last; i += 3) {
+      const VertexTiles range = corner_of(indices[i])
+                                    .UnitedWith(corner_of(indices[i + 1]))
+                                    .UnitedWith(corner_of(indices[i + 2]));
+      if (!range.is_known) {
+        own.IncludeCut({clip_of(indices[i]), clip_of(indices[i + 1]), clip_of(indices[i + 2])},
+                       near_m, margin_px);
+        continue;
       }
+      // Neighbors mostly affect the same tiles.
+      if (range == before) continue;
+      before = range;
+      own.Include({glm::max(glm::ivec2(range.first_x, range.first_y), 0),
+                   glm::min(glm::ivec2(range.last_x, range.last_y), tiles_ - 1)});
     }
-    if (!bounds.is_known) {
-      IncludeAll();
-    } else if (bounds.low.x <= bounds.high.x) {
-      Include(bounds.low - margin_px, bounds.high + margin_px);
+  });
+  for (const ImageTiles& own : found) Include(own);
+}
+
+void ImageTiles::IncludeCut(const std::array<glm::vec4, 3>& clip, float near_m, float margin_px) {
+  DrawnBounds bounds;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const glm::vec4 &from = clip[k], &to = clip[(k + 1) % 3];
+    // Written so that a depth which is not a number is in front.
+    if (!(from.w < near_m)) bounds.Add(from, glm::vec2(size_px_));
+    if ((from.w < near_m) != (to.w < near_m)) {
+      bounds.Add(glm::mix(from, to, (near_m - from.w) / (to.w - from.w)), glm::vec2(size_px_));
     }
+  }
+  if (!bounds.is_known) {
+    IncludeAll();
+  } else if (bounds.low.x <= bounds.high.x) {
+    Include(bounds.low - margin_px, bounds.high + margin_px);
   }
 }
 

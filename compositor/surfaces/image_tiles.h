@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <glm/glm.hpp>
@@ -65,6 +66,10 @@ class ImageTiles {
     glm::ivec2 first{0}, last{-1};  // Tiles; empty where a last one is smaller.
   };
   Range RangeOf(glm::vec2 low, glm::vec2 high) const;
+  void Include(const Range& range);
+  /// Adds the tiles of a triangle of which a part is nearer than `near_m`, by its corners in clip
+  /// space; all tiles if a coordinate is not a number.
+  void IncludeCut(const std::array<glm::vec4, 3>& clip, float near_m, float margin_px);
 
   glm::ivec2 size_px_, tiles_;
   std::vector<char> included_;  // Row by row.

@@ -4,7 +4,14 @@
 #include <cstddef>
 #include <utility>
 
+#include "base/parallel_for.h"
+
 namespace pleinair::compositor {
+namespace {
+
+constexpr std::size_t kSortedPerBlock = 16'384;
+
+}  // namespace
 
 SunFacingTriangles::SunFacingTriangles(const LitMesh& object)
     : is_translucent_(object.IsTranslucent()),
@@ -27,19 +34,24 @@ bool SunFacingTriangles::Sort(const glm::vec3& to_sun) {
     return false;
   }
   sorted_for_ = to_sun;
+  const std::size_t triangles = indices_.size() / 3;
+  is_away_.resize(triangles);
+  ParallelForBlocks(triangles, kSortedPerBlock, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto first = indices_.begin() + static_cast<std::ptrdiff_t>(3 * i);
+      is_away_[i] = std::all_of(first, first + 3, [&](std::uint32_t vertex) {
+        return no_sun || (!is_translucent_ && glm::dot(normals_[vertex], to_sun) < -kMargin);
+      });
+    }
+  });
   turned_away_.clear();
   std::size_t kept = 0;
-  for (std::size_t i = 0; i < indices_.size(); i += 3) {
-    const auto first = indices_.begin() + static_cast<std::ptrdiff_t>(i);
-    const bool away = std::all_of(first, first + 3, [&](std::uint32_t vertex) {
-      return no_sun || (!is_translucent_ && glm::dot(normals_[vertex], to_sun) < -kMargin);
-    });
-    for (std::size_t k = i; k < i + 3; ++k) {
-      if (away) {
-        turned_away_.push_back(indices_[k]);
-      } else {
-        indices_[kept++] = indices_[k];
-      }
+  for (std::size_t i = 0; i < triangles; ++i) {
+    if (is_away_[i] != 0) {
+      const auto first = indices_.begin() + static_cast<std::ptrdiff_t>(3 * i);
+      turned_away_.insert(turned_away_.end(), first, first + 3);
+    } else {
+      for (std::size_t k = 3 * i; k < 3 * i + 3; ++k) indices_[kept++] = indices_[k];
     }
   }
   facing_end_ = static_cast<int>(kept);

@@ -36,6 +36,7 @@ class SunFacingTriangles {
   bool is_translucent_ = false;  // The sun shines on the other side too, and through.
   std::vector<glm::vec3> normals_;
   std::vector<std::uint32_t> indices_, turned_away_;
+  std::vector<std::uint8_t> is_away_;  // By triangle, while it sorts.
   std::optional<glm::vec3> sorted_for_;
   int facing_end_ = 0;
 };

@@ -35,13 +35,6 @@ float Bounded(float value) {
   return std::fmax(-kMax, std::fmin(kMax, value));
 }
 
-template <typename Visit>
-void ForEachBlock(std::size_t count, const Visit& visit) {
-  ParallelFor((count + kVerticesPerBlock - 1) / kVerticesPerBlock, 0, [&](std::size_t block) {
-    visit(block * kVerticesPerBlock, std::min(count, (block + 1) * kVerticesPerBlock));
-  });
-}
-
 std::array<float, 3> UnitOr(float x, float y, float z, const std::array<float, 3>& otherwise) {
   const float norm = std::sqrt(x * x + y * y + z * z);
   if (!(norm > 0.0F) || !std::isfinite(norm)) return otherwise;
@@ -259,7 +252,8 @@ MeshShape GltfRig::ShapeOf(const Part& part, const std::vector<float>& weights,
       targets.emplace_back(weights[i], &part.targets[i]);
     }
   }
-  ForEachBlock(shape.positions.size(), [&](std::size_t first, std::size_t last) {
+  const std::size_t count = shape.positions.size();
+  ParallelForBlocks(count, kVerticesPerBlock, [&](std::size_t first, std::size_t last) {
     for (const auto& [weight, target] : targets) {
       for (std::size_t i = first; i < last && !target->positions.empty(); ++i) {
         for (std::size_t c = 0; c < 3; ++c) {
@@ -316,10 +310,12 @@ MeshShape GltfRig::Arranged(const VertexSources& sources, const MeshShape& part)
   const std::size_t count = sources.vertices.size();
   shape.positions.resize(count);
   shape.normals.resize(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    shape.positions[i] = part.positions[sources.vertices[i]];
-    if (sources.flat[i] == 0) shape.normals[i] = part.normals[sources.vertices[i]];
-  }
+  ParallelForBlocks(count, kVerticesPerBlock, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      shape.positions[i] = part.positions[sources.vertices[i]];
+      if (sources.flat[i] == 0) shape.normals[i] = part.normals[sources.vertices[i]];
+    }
+  });
   for (std::size_t i = 0; i < count; ++i) {
     if (sources.flat[i] == 0) continue;
     // The three corners of a flat triangle follow each other.
