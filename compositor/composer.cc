@@ -191,6 +191,7 @@ Result<const SurfacePrograms*> GlComposer::ProgramsFor(const FrameUniforms& fram
                                 {.fades = shadows_.Fades(),
                                  .needs_airlight = frame.needs_airlight,
                                  .textured = surfaces_.materials().HasTextures(),
+                                 .blended = surfaces_.materials().HasBlended(),
                                  .detailed = surfaces_.materials().HasDetails(),
                                  .translucent = surfaces_.materials().HasTranslucent(),
                                  .glossy = surfaces_.materials().HasGloss()}));

@@ -33,6 +33,7 @@ Result<SurfacePrograms> SurfacePrograms::Create(const shadows::ShadowMapOptions&
     defines.insert(defines.end(), of_pass.begin(), of_pass.end());
     if (permutation.needs_airlight) defines.emplace_back("AIRLIGHT");
     if (permutation.textured) defines.emplace_back("TEXTURED");
+    if (permutation.blended) defines.emplace_back("BLENDED");
     if (permutation.detailed) defines.emplace_back("DETAILED");
     if (permutation.translucent) defines.emplace_back("TRANSLUCENT");
     if (permutation.glossy) defines.emplace_back("GLOSSY");

@@ -15,6 +15,7 @@ struct SurfacePrograms {
     bool fades = false;           ///< The sun lies between two steps, FadingShadowMaps::Fades().
     bool needs_airlight = false;  ///< The airlight in front of the real surfaces is noticeable.
     bool textured = false;        ///< Some objects have textures.
+    bool blended = false;         ///< SceneMaterials::HasBlended().
     bool detailed = false;        ///< SceneMaterials::HasDetails().
     bool translucent = false;     ///< SceneMaterials::HasTranslucent().
     bool glossy = false;          ///< Some objects are glossy.

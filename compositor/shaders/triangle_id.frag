@@ -49,6 +49,22 @@ uniform float u_alpha_cutoff;
 uniform int u_samples;  // Per pixel, 4 at most.
 uniform int u_surface;  // Unique per surface.
 
+// Blended surfaces below this alpha cover half of the samples, and what they show is weighted by
+// alpha (virtual_object.frag).
+const float kMaxBlended = 0.995;
+
+// Two of four samples. Of two surfaces behind each other, each hides a sample of its own, and what
+// is behind both keeps one.
+int SamplesOfBlended() { return 8 | 1 << (u_surface % 3); }
+
+float AlphaAt(vec2 uv, vec2 step_x, vec2 step_y) {
+  float alpha = u_opacity * textureGrad(u_base_color_texture, uv, step_x, step_y).a;
+#ifdef DETAILED
+  alpha *= v_color.a;
+#endif
+  return alpha;
+}
+
 // Ordered dither from 0 to 1, evenly spread over adjacent pixels (Bayer 1973).
 float Dither(ivec2 pixel) {
   const int kBayer[16] = int[16](0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5);
@@ -64,9 +80,9 @@ int FirstSample(ivec2 pixel) {
 }
 
 // Alpha is sampled at each sample position, as the mean over the sample's share of the pixel. The
-// edges of cut-outs therefore stay as sharp with distance as those of surfaces. Blended surfaces
-// cover as many samples as alpha exceeds thresholds (screen-door transparency, which needs no
-// sorting). Cut-outs have one threshold. If texels are finer than the sample's share, alpha is
+// edges of cut-outs therefore stay as sharp with distance as those of surfaces. Where there are not
+// four samples, blended surfaces cover as many as alpha exceeds thresholds (screen-door
+// transparency). Cut-outs have one threshold. If texels are finer than the sample's share, alpha is
 // already a coverage.
 int SamplesCovered() {
   // For 4 per pixel, as in all renderers.
@@ -82,11 +98,7 @@ int SamplesCovered() {
   for (int i = 0; i < u_samples; ++i) {
     vec2 aside = kPlaces[i] - 0.5;
     vec2 uv = v_uv + aside.x * step_x + aside.y * step_y;
-    float alpha =
-        u_opacity * textureGrad(u_base_color_texture, uv, side * step_x, side * step_y).a;
-#ifdef DETAILED
-    alpha *= v_color.a;
-#endif
+    float alpha = AlphaAt(uv, side * step_x, side * step_y);
     float spread = (float((i + first) % u_samples) + dither) / float(u_samples);
     float threshold = u_alpha == 2 ? spread : mix(u_alpha_cutoff, spread, minified);
     covered |= alpha >= threshold || u_alpha == 0 ? 1 << i : 0;
@@ -118,7 +130,14 @@ void main() {
 #endif
   out_texel = vec4(texel.rgb, CodeOfCoat(coat.x, coat.y));
 #ifdef ALPHA
-  gl_SampleMask[0] = SamplesCovered();
+  float alpha = AlphaAt(v_uv, dFdx(v_uv), dFdy(v_uv));
+  bool blended = u_alpha == 2 && u_samples == 4 && alpha < kMaxBlended;
+  int covered = SamplesCovered();
+  if (blended) {
+    out_texel.a = CodeOfBlended(coat.x, coat.y, alpha);
+    covered = alpha * kAlphaSteps < 0.5 ? 0 : SamplesOfBlended();
+  }
+  gl_SampleMask[0] = covered;
 #endif
 #endif
 }

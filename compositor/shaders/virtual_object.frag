@@ -5,7 +5,7 @@
 //
 // TEXTURED: triangle_id.frag sampled textures. DETAILED: and bumps and emission; some objects may be
 // unlit. Needs TEXTURED and GLOSSY. TRANSLUCENT: some transmit light, or are leaves. Needs DETAILED.
-// GLOSSY: some objects are glossy. This is a
+// BLENDED: some are seen through. Needs TEXTURED. GLOSSY: some objects are glossy. This is a
 // permutation, not a test, because Mesa's software renderer executes an `if` regardless of its
 // condition.
 
@@ -68,6 +68,35 @@ MaterialRecord Textured(MaterialRecord record, vec4 samples) {
   record.roughness *= coat.x * share;
   record.metallic *= coat.y * share;
   return record;
+}
+#endif
+
+#ifdef BLENDED
+// Share of the pixel of each piece. Blended surfaces lie over the others with their alpha. They
+// cover two samples of a pixel that they fill; another one before them may hide one of the two.
+vec4 SharesOf(uvec4 seen) {
+  vec4 sizes = vec4(0.0), alphas = vec4(0.0);
+  for (int k = 0; k < 4; ++k) {
+    vec4 samples = SamplesOf(seen[k]);
+    sizes[k] = dot(samples, vec4(1.0));
+    for (int i = 0; i < int(u_samples); ++i) {
+      alphas[k] += samples[i] * AlphaOfCode(texelFetch(u_texels, ivec2(gl_FragCoord.xy), i).a);
+    }
+  }
+  alphas /= max(sizes, vec4(1.0));
+  vec4 blends = vec4(lessThan(alphas, vec4(0.999))) * vec4(greaterThan(sizes, vec4(0.0)));
+  float blended = dot(sizes, blends);
+  vec4 hides = blends * alphas * (blended > 2.5 ? min(sizes, vec4(1.0)) : 0.5 * sizes);
+  vec4 shares = hides;
+  float left = 1.0;
+  for (int k = 0; k < 4; ++k) {
+    left *= 1.0 - hides[k];
+    for (int other = 0; other < 4; ++other) {
+      bool before = sizes[other] > sizes[k] || (sizes[other] == sizes[k] && other < k);
+      shares[k] *= before ? 1.0 - hides[other] : 1.0;
+    }
+  }
+  return shares + (1.0 - blends) * sizes * left / max(u_samples - blended, 1.0);
 }
 #endif
 
@@ -279,6 +308,9 @@ vec3 ColorOf(VisibleSurface surface, MaterialRecord record
 void main() {
   uvec4 seen = texelFetch(u_visible, ivec2(gl_FragCoord.xy), 0);
   vec4 sum = vec4(0.0);
+#ifdef BLENDED
+  vec4 shares = SharesOf(seen);
+#endif
   do {
     vec4 samples = SamplesOf(seen.x);
     uvec4 triangle = TriangleOf(IdOf(seen.x));
@@ -317,8 +349,13 @@ void main() {
 #else
     vec3 color = ColorOf(surface, record);
 #endif
-    sum += dot(samples, vec4(1.0)) * vec4(color, 1.0);
+#ifdef BLENDED
+    sum += shares.x * vec4(color, 1.0);
+    shares = vec4(shares.yzw, 0.0);
+#else
+    sum += dot(samples, vec4(1.0)) / u_samples * vec4(color, 1.0);
+#endif
     seen = uvec4(seen.yzw, 0u);
   } while (seen.x != 0u);
-  out_color = sum / u_samples;
+  out_color = sum;
 }

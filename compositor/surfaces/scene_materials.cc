@@ -65,6 +65,8 @@ Result<SceneMaterials> SceneMaterials::Create(const std::vector<PlacedModel>& sc
     for (const Material& material : placed.model->materials) {
       const bool alpha = IsSeenThrough(*placed.model, material);
       materials.has_alpha_ = materials.has_alpha_ || alpha;
+      materials.has_blended_ =
+          materials.has_blended_ || material.alpha == Material::Alpha::kBlended;
       materials.has_textures_ = materials.has_textures_ || alpha || IsTextured(material);
       materials.has_gloss_ =
           materials.has_gloss_ || material.coat.f0 > 0.0F || material.metallic > 0.0F;

@@ -50,11 +50,13 @@ class SceneMaterials {
   LeafTints TintsOf(int placed_model, int material) const;
   /// Returns whether an object has holes or glass.
   bool HasAlpha() const { return has_alpha_; }
+  /// Returns whether an object needs the permutation BLENDED of the shaders: one has glass.
+  bool HasBlended() const { return has_alpha_ && has_blended_; }
 
  private:
   std::vector<PlacedModel> scene_;
   bool has_textures_ = false, has_alpha_ = false, has_gloss_ = false, has_details_ = false;
-  bool has_translucent_ = false;
+  bool has_translucent_ = false, has_blended_ = false;
   std::map<std::pair<int, int>, LeafTints> tints_;  // Leaves, by placed model and material.
   gl::GlTexture white_;
   std::vector<std::vector<gl::GlTexture>> model_textures_;  // One list per placed model.

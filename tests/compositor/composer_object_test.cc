@@ -135,6 +135,21 @@ TEST(Composer, ShowsThroughGlassWhatLiesBehind) {
   EXPECT_EQ(LetThrough({pane(0.3F, 0.1F, Alpha::kCutout)}), 1.0);
 }
 
+TEST(Composer, DrawsGlassWithoutAPattern) {
+  Model glass = MakeBox({-0.5, -0.5, 0.1}, {0.5, 0.5, 0.1}, 0.0F);
+  glass.materials[0].opacity = 0.3F;
+  glass.materials[0].alpha = Material::Alpha::kBlended;
+  constexpr std::uint8_t kBehind = 200;
+  const RgbImage composed = Compose({Place(glass, false)}, EvenPicture(kBehind));
+  const int middle_x = composed.width() / 2, middle_y = composed.height() / 2;
+  const double expected = 0.7 * LinearFromSrgb8()[kBehind];
+  for (int y = middle_y - 12; y < middle_y + 12; ++y) {
+    for (int x = middle_x - 12; x < middle_x + 12; ++x) {
+      EXPECT_NEAR(LinearFromSrgb8()[composed(x, y, 1)], expected, 0.01) << x << ", " << y;
+    }
+  }
+}
+
 TEST(Composer, DrawsWhatCastsNoShadow) {
   // Thin glass as in a model, alone in the scene.
   Model pane = MakeBox({-0.5, -0.5, 0.1}, {0.5, 0.5, 0.1}, 0.0F);

@@ -240,6 +240,22 @@ TEST(TexelCode, KeepsRoughnessAndMetallicApart) {
   }
 }
 
+TEST(TexelCode, KeepsTheAlphaOfBlendedSurfaces) {
+  EXPECT_EQ(glsl::AlphaOfCode(glsl::CodeOfCoat(0.0F, 0.0F)), 1.0F);
+  for (int i = 0; i <= 127; ++i) {
+    for (const float roughness : {0.0F, 3.0F / 7.0F, 1.0F}) {
+      for (const float metallic : {0.0F, 1.0F}) {
+        const float alpha = static_cast<float>(i) / 127.0F;
+        const float code = glsl::CodeOfBlended(roughness, metallic, alpha);
+        EXPECT_GE(code, -2048.0F);
+        EXPECT_NEAR(glsl::AlphaOfCode(code), alpha, 1e-6);
+        EXPECT_NEAR(glsl::CoatOfCode(code).x, roughness, 1e-6);
+        EXPECT_NEAR(glsl::CoatOfCode(code).y, metallic, 1e-6);
+      }
+    }
+  }
+}
+
 TEST(SurfaceGradient, TiltsTheNormalAsTheMapSays) {
   // A surface that faces +z, seen at any scale and from any side, with u along x and v against y.
   const glm::vec3 bump = glm::normalize(glm::vec3(0.3F, 0.4F, 1.0F));
