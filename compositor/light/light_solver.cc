@@ -82,7 +82,8 @@ LitMesh MakeLitMesh(const PatchScene& scene, const PatchScene::MeshSide& mesh_si
   mesh.positions = mesh_side.mesh.positions;
   mesh.normals = mesh_side.mesh.normals;
   mesh.texturing = {mesh_side.mesh.uvs, mesh_side.mesh.details,
-                    mesh_side.twin >= 0 && mesh_side.twin < index, mesh_side.albedo};
+                    mesh_side.twin >= 0 && mesh_side.twin < index, mesh_side.albedo,
+                    mesh_side.transmittance};
   mesh.indices = mesh_side.mesh.indices;
   mesh.ambient_with = scene.VertexLight(mesh_side, light.irradiance[0]);
   mesh.sunlight.reflected_with = scene.VertexLight(mesh_side, light.reflected[0]);

@@ -41,6 +41,8 @@ struct MeshTexturing {
   /// Diffuse reflectance that its light was computed with: linear Rec.709, the mean of textures and
   /// colors of vertices.
   std::array<float, 3> reflectance{};
+  /// The same transmittance of a virtual object's open surface.
+  std::array<float, 3> transmittance{};
 };
 
 /// A tessellated surface with the irradiance at its vertices, without direct sunlight. Marker

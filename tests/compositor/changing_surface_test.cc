@@ -43,7 +43,7 @@ TEST(ChangingSurface, IsLitAsATracedOneInTheCourtyard) {
   const RgbImage still = compose(*courtyard.MakeComposer({}));
   const auto changing = courtyard.MakeChangingComposer({});
   RgbImage composed = compose(*changing);
-  for (const char* moment : {"first", "tenth"}) {
+  for (const char* moment : {"first", "tenth", "rested"}) {
     double body = 0.0, shadow = 0.0;
     int body_pixels = 0, shadow_pixels = 0;
     for (int y = 0; y < picture.height(); ++y) {
@@ -65,7 +65,11 @@ TEST(ChangingSurface, IsLitAsATracedOneInTheCourtyard) {
     RecordProperty("shadow_" + frame, std::to_string(shadow / shadow_pixels));
     EXPECT_LE(body / body_pixels, 3.0) << frame;
     EXPECT_LE(shadow / shadow_pixels, 3.0) << frame;
-    for (int i = 0; i < 9; ++i) composed = compose(*changing);
+    const int skipped = frame == "first" ? 8 : 40;
+    for (int i = 0; i < skipped; ++i) {
+      ASSERT_TRUE(changing->SkipImage(courtyard.poses()[testing::Courtyard::kKeyFrame]));
+    }
+    composed = compose(*changing);
   }
 }
 
@@ -113,6 +117,19 @@ TEST(ChangingSurface, TakesItsShadowAlong) {
   for (int i = 0; i < 40; ++i) after = cube.At(0.7);
   EXPECT_NEAR(SeenAt(after, in_shadow), ground, 0.01);
   EXPECT_NEAR(SeenAt(after, {}), ground, 0.01);
+}
+
+TEST(ChangingSurface, LetsLightThroughLeaves) {
+  // A level leaf shows what the ground below it reflects.
+  Model leaf = MakeBox({-0.5, -0.5, 0.4}, {0.5, 0.5, 0.4}, 0.0F);
+  leaf.materials[0].detail.transmission.color.fill(0.5F);
+  const PlacedModel still = Place(leaf, false);
+  PlacedModel moving = still;
+  moving.playback.animation = std::make_shared<testing::Unmoved>(moving.model);
+  const Vec3 middle{0.0, 0.0, 0.4};
+  const double expected = SeenAt(Compose({kGround, still}, EvenPicture(0)), middle);
+  EXPECT_GT(expected, 0.01);
+  EXPECT_NEAR(SeenAt(Compose({kGround, moving}, EvenPicture(0)), middle), expected, 0.1 * expected);
 }
 
 TEST(ChangingSurface, ForgetsASunThatIsGone) {

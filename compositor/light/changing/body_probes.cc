@@ -22,8 +22,10 @@ constexpr std::size_t kProbesPerBlock = 8, kLitVerticesPerBlock = 2048;
 // Triangles of a surface that rays see as they are: they take about 4 ms to refit.
 constexpr std::size_t kMaxFineTriangles = 12'000;
 // Effective rays of a probe at rest, and of one that moves. 16 rays have a standard deviation of
-// 12 % of the full light at worst, 512 of 2 %.
-constexpr float kMaxRaysAtRest = 512.0F, kMaxRaysMoving = 48.0F;
+// 12 % of the full light at worst, 1024 of 1.5 %.
+constexpr float kMaxRaysAtRest = 1024.0F, kMaxRaysMoving = 48.0F;
+// Effective rays from which on the sky's radiance along them replaces its harmonics in a cone.
+constexpr float kRaysOfSky = 256.0F;
 // At rest: moved by less than this, and turned by less than this sine, since the last refresh.
 constexpr double kRest_m = 1e-3, kRestTurn = 0.01;
 // A probe that moved or turned by more keeps no older rays but one round.
@@ -150,7 +152,7 @@ void BodyProbes::Trace(const Surroundings& surroundings, std::size_t index) {
     members = std::span(side.groups->members).subspan(begin, side.groups->member_ends[own] - begin);
   }
   Vec3 bent, place, mean_normal;
-  Float3 reflected{}, sunlight{};
+  Float3 reflected{}, sunlight{}, sky{};
   std::uint32_t open = 0, outside = 0;
   const std::uint32_t seed = Hash(static_cast<std::uint32_t>(index), probe.round);
   for (std::uint32_t i = 0; i < kRays; ++i) {
@@ -173,6 +175,7 @@ void BodyProbes::Trace(const Surroundings& surroundings, std::size_t index) {
     if (seen.what == SeenAlongRay::What::kSky) {
       ++open;
       bent = bent + direction;
+      AddTo(seen.radiance, std::numbers::pi_v<float>, &sky);
     } else {
       AddTo(seen.radiance, std::numbers::pi_v<float>, &reflected);
       AddTo(seen.sunlight, std::numbers::pi_v<float>, &sunlight);
@@ -197,11 +200,12 @@ void BodyProbes::Trace(const Surroundings& surroundings, std::size_t index) {
                   static_cast<float>(v.z * scale)};
   };
   Blend(narrow(bent, share), weight, &probe.bent);
-  for (Float3* light : {&reflected, &sunlight}) {
+  for (Float3* light : {&reflected, &sunlight, &sky}) {
     for (float& value : *light) value *= share;
   }
   Blend(reflected, weight, &probe.reflected);
   Blend(sunlight, weight, &probe.sunlight);
+  Blend(sky, weight, &probe.sky);
   probe.place = narrow(place, 1.0);
   probe.normal = narrow(normal, 1.0);
 }
@@ -216,6 +220,7 @@ void BodyProbes::FillBuried() {
     probe.open = before.open;
     probe.reflected = before.reflected;
     probe.sunlight = before.sunlight;
+    probe.sky = before.sky;
   }
 }
 
@@ -225,6 +230,10 @@ BodyProbes::Received BodyProbes::LightOf(const SkyHarmonics& sky, const Probe& p
   if (Norm(bent) < 1e-3) bent = {0.0, 0.0, 1.0};
   bent = Normalized(bent);
   Received received{sky.Irradiance(bent, static_cast<double>(probe.open)), probe.sunlight};
+  // The cone has little noise, the sum over many rays no error of its own.
+  const float share =
+      std::clamp((probe.rays - kMaxRaysMoving) / (kRaysOfSky - kMaxRaysMoving), 0.0F, 1.0F);
+  Blend(probe.sky, share, &received.light);
   AddTo(probe.reflected, 1.0F, &received.light);
   return received;
 }
@@ -250,6 +259,8 @@ void BodyProbes::Light(const SkyHarmonics& sky, std::span<LitMesh> drawn) const 
   for (std::size_t s = 0; s < sides_.size(); ++s) {
     const Side& side = sides_[s];
     LitMesh& mesh = drawn[s];
+    // The other side of a surface that light shines through has this light behind it.
+    LitMesh* other = mesh.IsTranslucent() ? &drawn[side.back ? s - 1 : s + 1] : nullptr;
     const std::size_t count = mesh.positions.size();
     ParallelFor((count + kLitVerticesPerBlock - 1) / kLitVerticesPerBlock, 0,
                 [&](std::size_t block) {
@@ -261,6 +272,9 @@ void BodyProbes::Light(const SkyHarmonics& sky, std::span<LitMesh> drawn) const 
                       mesh.ambient_with[v][c] = light;
                       mesh.sunlight.reflected_with[v][c] = std::clamp(at.sunlight[c], 0.0F, light);
                     }
+                    if (other == nullptr) continue;
+                    other->ambient_without[v] = mesh.ambient_with[v];
+                    other->sunlight.reflected_without[v] = mesh.sunlight.reflected_with[v];
                   }
                 });
   }

@@ -55,6 +55,7 @@ class BodyProbes {
     std::array<float, 3> bent{};  // Mean direction of rays to the sky; its length is below 1.
     float open = 0.0F;            // Share of rays to the sky.
     std::array<float, 3> reflected{}, sunlight{};  // Irradiance, and its part from the sun.
+    std::array<float, 3> sky{};                    // Irradiance by the rays to the sky.
     float rays = 0.0F;                             // Effective number; 0: none outside of bodies.
     std::array<float, 3> place{}, normal{};        // At the last refresh.
     std::uint32_t side = 0, round = 0;

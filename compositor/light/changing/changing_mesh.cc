@@ -69,6 +69,9 @@ ChangingMesh::ChangingMesh(const PlacedModel& placed, int placed_model)
     source.reflectance = ReflectanceOf(*placed.model, from.surface.material);
     const std::array<float, 3> mean_color = MeanVertexColor(from.surface);
     for (std::size_t c = 0; c < 3; ++c) source.reflectance[c] *= mean_color[c];
+    if (!from.surface.closed) {
+      source.transmittance = TransmittanceOf(placed, from.surface.material, source.reflectance);
+    }
     source.vertices = std::move(from.vertices);
     const auto& normals = placed.model->meshes[from.mesh].normals;
     for (std::size_t i = 0; i < source.vertices.size(); ++i) {
@@ -143,10 +146,15 @@ std::vector<LitMesh> ChangingMesh::DrawnMeshes() const {
       mesh.geometry = geometry++;
       mesh.positions = surface.positions;
       mesh.normals = surface.normals;
-      mesh.texturing = {surface.uvs, surface.details, back, sources_[s].reflectance};
+      mesh.texturing = {surface.uvs, surface.details, back, sources_[s].reflectance,
+                        sources_[s].transmittance};
       mesh.indices = surface.indices;
       mesh.ambient_with.resize(surface.positions.size());
       mesh.sunlight.reflected_with.resize(surface.positions.size());
+      if (sources_[s].transmittance != std::array<float, 3>{}) {
+        mesh.ambient_without.resize(surface.positions.size());
+        mesh.sunlight.reflected_without.resize(surface.positions.size());
+      }
       if (!back) continue;
       for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
         std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);

@@ -43,7 +43,7 @@ class ChangingMesh {
  private:
   struct Source {
     std::size_t mesh = 0;
-    std::array<float, 3> reflectance{};
+    std::array<float, 3> reflectance{}, transmittance{};
     std::vector<std::uint32_t> vertices;  // Index in the mesh, for each vertex before the split.
     std::vector<bool> turned;             // By vertex: the normal is opposite to the mesh's.
     std::vector<std::array<std::uint32_t, 2>> parents;  // Ends of the edges that were split.

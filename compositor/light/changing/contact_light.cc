@@ -16,6 +16,8 @@ using Float3 = std::array<float, 3>;
 constexpr std::size_t kPlacesPerBlock = 32;
 // Effective rays of a vertex, as those of probes (body_probes.cc).
 constexpr float kMaxRaysBesideRest = 512.0F, kMaxRaysBesideMoving = 48.0F;
+// Effective rays of a vertex from which on the sunlight that is missing is taken off as a whole.
+constexpr float kShadedRays = 128.0F;
 // Path of the bodies after which older rays no longer count, relative to the distance.
 constexpr double kForgetShare = 0.05, kMinForget_m = 5e-3, kRestPath_m = 1e-3;
 // Vertices next to the bodies: within this distance of the sphere around them.
@@ -75,7 +77,7 @@ void ContactLight::FollowBodies(std::span<const LitMesh> bodies, double moved_m)
 
 void ContactLight::Forget() {
   for (auto& mesh : changes_) {
-    for (Change& change : mesh) change.rays = 0.0F;
+    for (Change& change : mesh) change.rays = change.shaded_rays = 0.0F;
   }
 }
 
@@ -147,11 +149,35 @@ void ContactLight::Trace(const Surroundings& surroundings, std::size_t index) {
   const float most = moved_m < kRestPath_m ? kMaxRaysBesideRest
                      : moved_m < forget_m  ? kMaxRaysBesideMoving
                                            : kRays;
+  if (moved_m >= kRestPath_m) {
+    change.shaded_rays = 0.0F;
+  } else if (may_see) {
+    TraceShaded(surroundings, origin, normal, Hash(Hash(v, m), change.round), &change);
+  }
   change.rays = std::min(change.rays, most - kRays) + kRays;
   const float weight = static_cast<float>(kRays) / change.rays;
   for (std::size_t c = 0; c < 3; ++c) {
     change.light[c] += weight * (light[c] - change.light[c]);
     change.sunlight[c] += weight * (sunlight[c] - change.sunlight[c]);
+  }
+}
+
+void ContactLight::TraceShaded(const Surroundings& surroundings, Vec3 origin, Vec3 normal,
+                               std::uint32_t seed, Change* change) {
+  const TangentFrame frame(normal);
+  Float3 shaded{};
+  for (std::uint32_t i = 0; i < kRays; ++i) {
+    const Vec3 direction = CosineDirection(frame, ShiftedHammersley(i, kRays, seed));
+    const Float3 missing = surroundings.ShadedSunlight(origin, direction);
+    for (std::size_t c = 0; c < 3; ++c) {
+      shaded[c] += missing[c] * std::numbers::pi_v<float> / static_cast<float>(kRays);
+    }
+  }
+  if (change->shaded_rays == 0.0F) change->shaded = {};
+  change->shaded_rays = std::min(change->shaded_rays, kMaxRaysBesideRest - kRays) + kRays;
+  const float weight = static_cast<float>(kRays) / change->shaded_rays;
+  for (std::size_t c = 0; c < 3; ++c) {
+    change->shaded[c] += weight * (shaded[c] - change->shaded[c]);
   }
 }
 
@@ -166,12 +192,14 @@ void ContactLight::Light(std::span<LitMesh> drawn) {
   for (const auto& [m, v] : near_) {
     const LitMesh& mesh = still_[m];
     const Change& change = changes_[m][v];
+    const float share = std::min(1.0F, change.shaded_rays / kShadedRays);
     for (std::size_t c = 0; c < 3; ++c) {
-      const float light = std::max(0.0F, mesh.ambient_with[v][c] + change.light[c]);
+      const float shaded = share * change.shaded[c];
+      const float light = std::max(0.0F, mesh.ambient_with[v][c] + change.light[c] - shaded);
       drawn[m].ambient_with[v][c] = light;
       if (mesh.sunlight.reflected_with.empty()) continue;
       drawn[m].sunlight.reflected_with[v][c] =
-          std::clamp(mesh.sunlight.reflected_with[v][c] + change.sunlight[c], 0.0F, light);
+          std::clamp(mesh.sunlight.reflected_with[v][c] + change.sunlight[c] - shaded, 0.0F, light);
     }
   }
 }

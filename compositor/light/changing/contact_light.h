@@ -20,6 +20,9 @@ namespace pleinair::compositor {
 ///
 /// The sum is over the rays that end at a body. L_behind is the sky's radiance where only the sky
 /// is behind the body. Elsewhere it is the mean of what the vertex receives.
+///
+/// Beside bodies at rest, other rays find the sunlight that still surfaces no longer reflect to the
+/// vertex, because a body shades them. It fades in: few rays of so strong a light would flicker.
 class ContactLight {
  public:
   /// `still`: the surfaces in their light without the bodies. It must outlive this object.
@@ -51,7 +54,8 @@ class ContactLight {
   };
   struct Change {
     std::array<float, 3> light{}, sunlight{};
-    float rays = 0.0F;
+    std::array<float, 3> shaded{};  ///< Reflected sunlight that is missing.
+    float rays = 0.0F, shaded_rays = 0.0F;
     std::uint32_t round = 0;
     double path_m = 0.0;  ///< ContactLight::path_m_ at the last refresh.
   };
@@ -61,6 +65,9 @@ class ContactLight {
   };
   void Refresh(const Surroundings& surroundings, std::size_t vertices, Turns* turns);
   void Trace(const Surroundings& surroundings, std::size_t index);
+  /// Traces `change.shaded` at a vertex.
+  static void TraceShaded(const Surroundings& surroundings, Vec3 origin, Vec3 normal,
+                          std::uint32_t seed, Change* change);
 
   std::span<const LitMesh> still_;
   std::vector<std::vector<Change>> changes_;  // By mesh and vertex.

@@ -69,35 +69,69 @@ void Surroundings::MoveBodies() {
   body_rays_->SetPositions(positions);
 }
 
-SeenAlongRay Surroundings::LightFrom(const Surface& surface, const RayHit& hit, Vec3 origin,
-                                     Vec3 direction, SeenAlongRay::What what) const {
-  const LitMesh* side = hit.back ? surface.back : surface.front;
-  if (side == nullptr) return {SeenAlongRay::What::kInside, {}, {}};
-  SeenAlongRay seen{what, {}, {}};
+LinearRgb Surroundings::UnshadedSun(const Surface& surface, const RayHit& hit, Vec3 origin,
+                                    Vec3 direction, Vec3* point) const {
+  const std::size_t first = 3 * std::size_t{hit.triangle};
+  const auto& positions = surface.front->positions;
+  const auto corner = [&](std::size_t k) { return WidenedVector(positions[surface.Corner(k)]); };
+  const Vec3 a = corner(first);
+  Vec3 normal = Normalized(Cross(corner(first + 1) - a, corner(first + 2) - a));
+  if (hit.back) normal = -normal;
+  *point = origin + direction * hit.distance_m + normal * kRayOffset_m;
+  return sun_lux_ * std::max(0.0, Dot(normal, to_sun_));
+}
+
+std::array<float, 3> Surroundings::ShadedSunlight(Vec3 origin, Vec3 direction) const {
+  RayHit hit, body;
+  Vec3 point;
+  if (!still_rays_->Intersect(RayTargets::kEverything, origin, direction, &hit)) return {};
+  const Surface& surface = still_[hit.mesh];
+  if (hit.back && surface.back == nullptr) return {};
+  const LinearRgb sun = UnshadedSun(surface, hit, origin, direction, &point);
+  if (Luminance(sun) <= 0.0 || !IsShadedByBodies(point) ||
+      still_rays_->Occluded(RayTargets::kEverything, point, to_sun_) ||
+      (SeesBody(origin, direction, &body) && body.distance_m < hit.distance_m)) {
+    return {};
+  }
+  const auto& [r, g, b] = surface.albedo;
+  const LinearRgb radiance = sun * LinearRgb{r, g, b} * std::numbers::inv_pi;
+  return {static_cast<float>(radiance.r), static_cast<float>(radiance.g),
+          static_cast<float>(radiance.b)};
+}
+
+void Surroundings::AddLightOf(const Surface& surface, const RayHit& hit, Vec3 origin,
+                              Vec3 direction, const std::array<float, 3>& albedo,
+                              SeenAlongRay* seen) const {
+  const LitMesh& side = hit.back ? *surface.back : *surface.front;
   const std::size_t first = 3 * std::size_t{hit.triangle};
   const std::array<std::uint32_t, 3> corners{surface.Corner(first), surface.Corner(first + 1),
                                              surface.Corner(first + 2)};
-  const std::array<float, 3> ambient = AtHit(side->ambient_with, corners, hit);
-  const std::array<float, 3> reflected = AtHit(side->sunlight.reflected_with, corners, hit);
-  const auto& positions = surface.front->positions;
-  const Vec3 a = WidenedVector(positions[corners[0]]);
-  Vec3 normal = Normalized(
-      Cross(WidenedVector(positions[corners[1]]) - a, WidenedVector(positions[corners[2]]) - a));
-  if (hit.back) normal = -normal;
-  LinearRgb sun;
-  if (const double cosine = Dot(normal, to_sun_); cosine > 0.0 && Luminance(sun_lux_) > 0.0) {
-    const Vec3 point = origin + direction * hit.distance_m + normal * kRayOffset_m;
-    if (!body_rays_->Occluded(RayTargets::kEverything, point + to_sun_ * gap_m_, to_sun_) &&
-        !still_rays_->Occluded(RayTargets::kEverything, point, to_sun_)) {
-      sun = sun_lux_ * cosine;
-    }
+  const std::array<float, 3> ambient = AtHit(side.ambient_with, corners, hit);
+  const std::array<float, 3> reflected = AtHit(side.sunlight.reflected_with, corners, hit);
+  Vec3 point;
+  LinearRgb sun = UnshadedSun(surface, hit, origin, direction, &point);
+  if (Luminance(sun) > 0.0 &&
+      (IsShadedByBodies(point) || still_rays_->Occluded(RayTargets::kEverything, point, to_sun_))) {
+    sun = {};
   }
   const std::array<double, 3> sun_of{sun.r, sun.g, sun.b};
   for (std::size_t c = 0; c < 3; ++c) {
-    const float share = surface.albedo[c] * std::numbers::inv_pi_v<float>;
+    const float share = albedo[c] * std::numbers::inv_pi_v<float>;
     const auto direct = static_cast<float>(sun_of[c]);
-    seen.radiance[c] = share * (ambient[c] + direct);
-    seen.sunlight[c] = share * (reflected[c] + direct);
+    seen->radiance[c] += share * (ambient[c] + direct);
+    seen->sunlight[c] += share * (reflected[c] + direct);
+  }
+}
+
+SeenAlongRay Surroundings::LightFrom(const Surface& surface, const RayHit& hit, Vec3 origin,
+                                     Vec3 direction, SeenAlongRay::What what) const {
+  if (hit.back && surface.back == nullptr) return {SeenAlongRay::What::kInside, {}, {}};
+  SeenAlongRay seen{what, {}, {}};
+  AddLightOf(surface, hit, origin, direction, surface.albedo, &seen);
+  if (surface.back != nullptr && surface.transmittance != std::array<float, 3>{}) {
+    RayHit other = hit;
+    other.back = !hit.back;
+    AddLightOf(surface, other, origin, direction, surface.transmittance, &seen);
   }
   return seen;
 }

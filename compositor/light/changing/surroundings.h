@@ -42,7 +42,7 @@ class Surroundings {
   struct Surface {
     const LitMesh* front = nullptr;
     const LitMesh* back = nullptr;  ///< Null for a closed body.
-    std::array<float, 3> albedo{};
+    std::array<float, 3> albedo{}, transmittance{};
     Coarse coarse;
 
     /// A corner of a triangle, as a vertex of the mesh.
@@ -67,6 +67,9 @@ class Surroundings {
   SeenAlongRay Look(Vec3 origin, Vec3 direction) const;
   /// As Look(), but sees bodies alone, if no still surface is before them.
   std::optional<SeenAlongRay> LookAtBodies(Vec3 origin, Vec3 direction) const;
+  /// The radiance, cd/m², that a still surface along the ray would reflect of the sun if no body
+  /// shaded it. Zero where none does, or where a body is before the surface.
+  std::array<float, 3> ShadedSunlight(Vec3 origin, Vec3 direction) const;
   /// Returns whether a still surface lies along the ray.
   bool IsBehindStill(Vec3 origin, Vec3 direction) const {
     return still_rays_->Occluded(RayTargets::kEverything, origin, direction);
@@ -76,7 +79,17 @@ class Surroundings {
   static Result<std::unique_ptr<RayScene>> RaysOf(std::span<const Surface> surfaces);
   SeenAlongRay LightFrom(const Surface& surface, const RayHit& hit, Vec3 origin, Vec3 direction,
                          SeenAlongRay::What what) const;
+  /// Adds the light of the side of a surface that `hit` names, times its albedo or transmittance.
+  void AddLightOf(const Surface& surface, const RayHit& hit, Vec3 origin, Vec3 direction,
+                  const std::array<float, 3>& albedo, SeenAlongRay* seen) const;
+  /// The sun on a surface that a ray hit, if nothing shades it. `point`: from which rays to the sun
+  /// start.
+  LinearRgb UnshadedSun(const Surface& surface, const RayHit& hit, Vec3 origin, Vec3 direction,
+                        Vec3* point) const;
 
+  bool IsShadedByBodies(Vec3 point) const {
+    return body_rays_->Occluded(RayTargets::kEverything, point + to_sun_ * gap_m_, to_sun_);
+  }
   /// The nearest body along a ray.
   bool SeesBody(Vec3 origin, Vec3 direction, RayHit* hit) const;
 
@@ -104,7 +117,8 @@ inline std::vector<Surroundings::Surface> PairedSides(std::span<const LitMesh> m
       }
     }
     if (front->role == MeshRole::kRenderOnly) continue;
-    surfaces.push_back({front, back, front->texturing.reflectance, {}});
+    surfaces.push_back(
+        {front, back, front->texturing.reflectance, front->texturing.transmittance, {}});
   }
   return surfaces;
 }
