@@ -144,7 +144,7 @@ Result<std::unique_ptr<DayRenderer>> Renderer(const std::shared_ptr<const compos
                                    {},
                                    {}};
   request.skies.unmodelled_shadows = false;
-  return DayRenderer::Create(Lens(), placed, std::move(request), {});
+  return DayRenderer::Create(Lens(), placed, std::move(request), {}, /*phantoms_cast=*/false);
 }
 
 /// The largest of 1, 2 and 5 times a power of ten that is at most `length`.

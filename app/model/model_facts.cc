@@ -38,16 +38,15 @@ std::string UpText(const Model& model, const ModelFrame& frame) {
 
 std::string_view UnitName(const ModelFrame& frame) { return scene::NameOfUnit(frame.unit_m); }
 
-std::string_view AlphaName(Material::Alpha alpha) {
-  switch (alpha) {
-    case Material::Alpha::kIgnored:
-      return "opaque";
-    case Material::Alpha::kCutout:
-      return "holes";
-    case Material::Alpha::kBlended:
-      return "glass";
+/// How a material is seen through: "opaque", "holes" or "glass".
+std::string_view AlphaName(const Model& model, const Material& material) {
+  const int texture = material.base_color_texture;
+  const bool varies =
+      texture >= 0 && model.textures[static_cast<std::size_t>(texture)].channels() == 4;
+  if (material.alpha == Material::Alpha::kIgnored || (material.opacity >= 1.0F && !varies)) {
+    return "opaque";
   }
-  return "opaque";
+  return material.alpha == Material::Alpha::kCutout ? "holes" : "glass";
 }
 
 /// The textures of a material by their use.
@@ -132,7 +131,7 @@ std::string ModelText(const Model& model, const ModelFrame& frame, const ModelFa
     const auto& [r, g, b] = material.base_color;
     text += fmt::format("    {}: color {:.3f} {:.3f} {:.3f}, roughness {:.2f}, metal {:.2f}, {}\n",
                         material.name.empty() ? "(no name)" : material.name, r, g, b,
-                        material.roughness, material.metallic, AlphaName(material.alpha));
+                        material.roughness, material.metallic, AlphaName(model, material));
     for (const auto& [use, texture] : TexturesOf(material)) {
       const auto& image = model.textures[static_cast<std::size_t>(texture)];
       text += fmt::format("      {}: picture of {} x {}\n", use, image.width(), image.height());
@@ -177,9 +176,10 @@ std::string ModelJson(const Model& model, const ModelFrame& frame, const ModelFa
   json["materials"] = nlohmann::json::array();
   for (const int index : UsedMaterials(model)) {
     const Material& material = model.materials[static_cast<std::size_t>(index)];
-    nlohmann::json entry = {{"name", material.name},           {"base_color", material.base_color},
-                            {"opacity", material.opacity},     {"alpha", AlphaName(material.alpha)},
-                            {"roughness", material.roughness}, {"metallic", material.metallic}};
+    nlohmann::json entry = {
+        {"name", material.name},           {"base_color", material.base_color},
+        {"opacity", material.opacity},     {"alpha", AlphaName(model, material)},
+        {"roughness", material.roughness}, {"metallic", material.metallic}};
     entry["textures"] = nlohmann::json::array();
     for (const auto& [use, texture] : TexturesOf(material)) {
       entry["textures"].push_back({{"use", use}, {"texture", texture}});

@@ -48,6 +48,7 @@ void SurfacePlacement::Place(std::span<const SurfaceBuffers> surfaces) {
   casters_.clear();
   phantom_casters_.clear();
   object_bounds_ = bounds_ = {};
+  shadows::Box without_shadow;
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
     const SurfaceBuffers& surface = surfaces[i];
     shadows::ShadowCaster caster;
@@ -65,11 +66,19 @@ void SurfacePlacement::Place(std::span<const SurfaceBuffers> surfaces) {
       caster.bounds.Include(glm::dvec3(caster.marker_from_model * point));
     }
     bounds_.Include(caster.bounds);
-    if (!surface.is_phantom()) object_bounds_.Include(caster.bounds);
-    if (!surface.CastsShadow()) continue;
+    if (!surface.is_phantom()) {
+      (surface.CastsShadow() ? object_bounds_ : without_shadow).Include(caster.bounds);
+    }
+    if (!surface.CastsShadow()) {
+      if (surface.is_phantom()) continue;
+      // It receives shadows, so that the depths of the maps must reach it.
+      caster.index_count = 0;
+      caster.triangles = {};
+    }
     if (surface.is_phantom()) phantom_casters_.push_back(caster);
     casters_.push_back(caster);
   }
+  if (object_bounds_.Empty()) object_bounds_ = without_shadow;
 }
 
 }  // namespace pleinair::compositor

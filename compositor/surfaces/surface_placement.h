@@ -44,6 +44,7 @@ class SurfacePlacement {
   /// Casters for shadow maps: of all surfaces, and of the phantoms alone.
   std::span<const shadows::ShadowCaster> casters() const { return casters_; }
   std::span<const shadows::ShadowCaster> phantom_casters() const { return phantom_casters_; }
+  /// Bounds of the virtual objects that cast shadows; of all, if none does.
   const shadows::Box& object_bounds() const { return object_bounds_; }
   const shadows::Box& bounds() const { return bounds_; }
 

@@ -40,8 +40,10 @@ DayRenderer::DayRenderer(const CameraModel& camera, session::LightingRequest req
 
 Result<std::unique_ptr<DayRenderer>> DayRenderer::Create(
     const CameraModel& camera, std::vector<compositor::PlacedModel> placed,
-    session::LightingRequest request, const compositor::ComposerOptions& options) {
+    session::LightingRequest request, const compositor::ComposerOptions& options,
+    bool phantoms_cast) {
   std::unique_ptr<DayRenderer> renderer(new DayRenderer(camera, std::move(request)));
+  renderer->phantoms_cast_ = phantoms_cast;
   renderer->request_.marker_reflectance = {};  // No exposure estimation.
   for (compositor::PlacedModel& model : placed) model.is_phantom = false;
   compositor::ComposerOptions drawing = options;
@@ -73,6 +75,7 @@ Result<RgbImage> DayRenderer::Render(const Transform<Camera, Marker>& camera_fro
   for (compositor::LitMesh& mesh : light.meshes) {
     if (!mesh.is_phantom) continue;
     mesh.is_phantom = false;
+    if (!phantoms_cast_) mesh.role = compositor::MeshRole::kRenderOnly;
     mesh.ambient_without.clear();
   }
   PLEINAIR_RETURN_IF_ERROR(

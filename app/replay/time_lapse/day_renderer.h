@@ -18,11 +18,14 @@ namespace pleinair::app {
 class DayRenderer {
  public:
   /// `request`: the scene's estimated light, with coefficients; its time begins the scene.
-  /// `placed`: the models that its solver was built from. Errors: as Composer::Create().
+  /// `placed`: the models that its solver was built from. `phantoms_cast`: false if no phantom
+  /// shades anything, such as level ground alone; the shadow maps then resolve the objects alone.
+  /// Errors: as Composer::Create().
   static Result<std::unique_ptr<DayRenderer>> Create(const CameraModel& camera,
                                                      std::vector<compositor::PlacedModel> placed,
                                                      session::LightingRequest request,
-                                                     const compositor::ComposerOptions& options);
+                                                     const compositor::ComposerOptions& options,
+                                                     bool phantoms_cast = true);
 
   /// Illuminance of sun and sky on level ground, lux.
   LinearRgb LevelLight(UtcTime time) const;
@@ -39,6 +42,7 @@ class DayRenderer {
 
   session::LightingRequest request_;
   int width_, height_;
+  bool phantoms_cast_ = true;
   std::vector<Vec3> rays_;  // Per pixel; camera coordinates, unit.
   std::vector<compositor::PlacedModel> placed_;
   std::unique_ptr<compositor::Composer> composer_;
