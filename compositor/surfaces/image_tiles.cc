@@ -157,7 +157,7 @@ bool ImageTiles::Touches(glm::vec2 low, glm::vec2 high) const {
   const auto [first, last] = RangeOf(low, high);
   for (int y = first.y; y <= last.y; ++y) {
     for (int x = first.x; x <= last.x; ++x) {
-      if (included_[static_cast<std::size_t>(y * tiles_.x + x)] != 0) return true;
+      if (included_.begin()[static_cast<std::ptrdiff_t>(y) * tiles_.x + x] != 0) return true;
     }
   }
   return false;
@@ -201,11 +201,11 @@ ImageTiles ImageTiles::Where(const std::function<bool(const PixelRect&)>& chosen
   ImageTiles tiles(size_px_.x, size_px_.y);
   for (int y = 0; y < tiles_.y; ++y) {
     for (int x = 0; x < tiles_.x; ++x) {
-      const auto at = static_cast<std::size_t>(y * tiles_.x + x);
-      if (included_[at] == 0) continue;
+      const auto at = static_cast<std::ptrdiff_t>(y) * tiles_.x + x;
+      if (included_.begin()[at] == 0) continue;
       const glm::ivec2 first = glm::ivec2(x, y) * kSide_px;
       const glm::ivec2 size = glm::min(glm::ivec2(kSide_px), size_px_ - first);
-      tiles.included_[at] = chosen({first.x, first.y, size.x, size.y}) ? 1 : 0;
+      tiles.included_.begin()[at] = chosen({first.x, first.y, size.x, size.y}) ? 1 : 0;
     }
   }
   return tiles;
