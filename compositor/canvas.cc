@@ -15,7 +15,12 @@ Result<Canvas> Canvas::Create(const CameraModel& camera, const ComposerOptions& 
   Canvas canvas;
   canvas.camera = FitRenderCamera(camera, supersampling);
   PLEINAIR_ASSIGN_OR_RETURN(
-      canvas.targets, RenderTargets::Create(canvas.camera.width, canvas.camera.height, detailed));
+      canvas.targets,
+      RenderTargets::Create(canvas.camera.width, canvas.camera.height, detailed,
+                            options.antialiasing.method == AntialiasingMethod::kMultisample));
+  PLEINAIR_ASSIGN_OR_RETURN(
+      canvas.places,
+      PlaceMean::Create(canvas.camera.width, canvas.camera.height, options.antialiasing));
   PLEINAIR_ASSIGN_OR_RETURN(canvas.coarse, CoarseRatio::Create(canvas.camera));
   PLEINAIR_ASSIGN_OR_RETURN(canvas.picture, CameraPicture::Create(camera, canvas.camera,
                                                                   supersampling, options.response));

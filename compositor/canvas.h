@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "compositor/composer_options.h"
 #include "compositor/passes/coarse_ratio.h"
+#include "compositor/passes/place_mean.h"
 #include "compositor/passes/render_camera.h"
 #include "compositor/passes/render_targets.h"
 #include "compositor/picture/camera_picture.h"
@@ -14,6 +15,7 @@ namespace pleinair::compositor {
 struct Canvas {
   RenderCamera camera;
   RenderTargets targets;
+  PlaceMean places;
   CoarseRatio coarse;
   CameraPicture picture;
 

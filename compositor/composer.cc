@@ -52,7 +52,7 @@ class GlComposer : public Composer {
 
   Result<void> SetOptions(const ComposerOptions& options) override;
   void LetGo() override { context_.ReleaseCurrent(); }
-  int samples() const override { return canvas_.targets.samples(); }
+  int samples() const override { return canvas_.targets.ids().samples(); }
   void MoveModel(int placed_model, const Mat3& linear, Vec3 translation_m) override {
     if (changing_ && changing_->Has(placed_model)) {
       changing_->Move(placed_model, linear, translation_m);
@@ -132,8 +132,6 @@ Result<std::unique_ptr<Composer>> GlComposer::Make(const CameraModel& camera,
   PLEINAIR_ASSIGN_OR_RETURN(c.passes_.ratio, ShadowRatioPass::Create());
   PLEINAIR_ASSIGN_OR_RETURN(c.surfaces_, SceneSurfaces::Create(scene));
   PLEINAIR_ASSIGN_OR_RETURN(c.changing_, ChangingBodies::Create(scene));
-  PLEINAIR_ASSIGN_OR_RETURN(c.passes_.objects,
-                            ObjectPass::Create(c.surfaces_.materials().HasDetails()));
   PLEINAIR_RETURN_IF_ERROR(c.SetRenderSize(options));
   PLEINAIR_RETURN_IF_ERROR(c.MakeShadows(c.MapOptions(options)));
   PLEINAIR_RETURN_IF_ERROR(c.ProgramsFor({}));
@@ -146,6 +144,9 @@ Result<std::unique_ptr<Composer>> GlComposer::Make(const CameraModel& camera,
 Result<void> GlComposer::SetRenderSize(const ComposerOptions& options) {
   PLEINAIR_ASSIGN_OR_RETURN(canvas_,
                             Canvas::Create(camera_, options, surfaces_.materials().HasDetails()));
+  PLEINAIR_ASSIGN_OR_RETURN(passes_.objects,
+                            ObjectPass::Create(surfaces_.materials().HasDetails(),
+                                               options.antialiasing.DrawnPlaces() > 1));
   passes_.debug_view.reset();
   return canvas_.picture.SetCameraLook(look_);
 }
@@ -163,7 +164,8 @@ Result<void> GlComposer::MakeShadows(const shadows::ShadowMapOptions& options) {
 Result<void> GlComposer::SetOptions(const ComposerOptions& options) {
   if (options == options_) return {};
   PLEINAIR_RETURN_IF_ERROR(context_.MakeCurrent());
-  if (options.supersampling != options_.supersampling || options.response != options_.response) {
+  if (options.supersampling != options_.supersampling || options.response != options_.response ||
+      options.antialiasing != options_.antialiasing) {
     PLEINAIR_RETURN_IF_ERROR(SetRenderSize(options));
   }
   // Another image size mostly needs the same maps, whose content stays valid.
@@ -319,7 +321,8 @@ FrameUniforms GlComposer::FrameOf(const shadows::View& view,
 /// Draws the coarse ratio where it is enough. Requires classified surfaces.
 AffectedTiles GlComposer::DrawCoarse(const SurfacePrograms& programs, const shadows::View& view,
                                      const FrameUniforms& frame) {
-  SceneProjection image = ProjectionOf(canvas_.camera, view, canvas_.picture.Spread_px());
+  SceneProjection image =
+      ProjectionOf(canvas_.camera, view, canvas_.picture.Spread_px() + canvas_.places.Spread_px());
   image.resolves_sunlit_sky = frame.needs_airlight;
   AffectedTiles tiles = surfaces_.TilesOf(image);
   if (options_.show_shadow_maps) tiles.all.IncludeAll();
@@ -369,7 +372,8 @@ Result<RgbImage> GlComposer::Compose(ImageView<const std::uint8_t> rgb,
   const FrameUniforms frame = FrameOf(view, camera_from_marker, exposure_scale);
   PLEINAIR_ASSIGN_OR_RETURN(const SurfacePrograms* programs, ProgramsFor(frame));
   AffectedTiles tiles = DrawCoarse(*programs, view, frame);
-  DrawScene(*programs, frame, tiles);
+  canvas_.places.Draw(canvas_.targets, frame, tiles.fine.Rectangles(),
+                      [&](const FrameUniforms& place) { DrawScene(*programs, place, tiles); });
   // Airlight in front of surfaces is drawn into the objects' image.
   if (frame.needs_airlight) tiles.objects.Include(tiles.fine);
   canvas_.picture.Draw(canvas_.targets, canvas_.coarse.ratio(), tiles);

@@ -51,7 +51,7 @@ class Composer {
   /// models.
   virtual void SetShape(int placed_model, std::span<const MeshShape> shape) = 0;
 
-  /// Samples per rendered pixel at edges: 4, or the renderer's maximum if that is lower.
+  /// Samples per rendered pixel that the renderer offers: 4, or its maximum if that is lower.
   virtual int samples() const = 0;
 
   /// Releases the context, so that another thread can draw.

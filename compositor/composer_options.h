@@ -3,6 +3,7 @@
 #include <array>
 
 #include "base/camera_response.h"
+#include "compositor/antialiasing.h"
 #include "shadows/shadow_method.h"
 
 namespace pleinair::compositor {
@@ -35,7 +36,8 @@ struct DrawReductions {
 
 /// How a Composer draws.
 struct ComposerOptions {
-  /// Render pixels per camera pixel and side, in addition to 4× multisampling. 0: 1 for a lens
+  Antialiasing antialiasing;
+  /// Render pixels per camera pixel and side, in addition to the antialiasing. 0: 1 for a lens
   /// without distortion, 1.5 for one with distortion, whose image is warped.
   double supersampling = 0.0;
   ShadowMethod shadow_method = ShadowMethod::kSunDisc;

@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "app/bench/antialiasing_command.h"
 #include "app/bench/shadow_bench.h"
 #include "app/bench/shadow_pictures.h"
 #include "app/commands/bench_replay_command.h"
@@ -207,10 +208,11 @@ Result<void> RunBench(BenchOptions& options) {
 }  // namespace
 
 void AddBenchCommand(CLI::App& app, CommandResult& result) {
-  CLI::App* bench =
-      app.add_subcommand("bench", "For research: measure shadow methods, replay with more options");
+  CLI::App* bench = app.add_subcommand(
+      "bench", "For research: measure shadows and antialiasing, replay with more options");
   bench->footer(kBenchExamples);
   bench->require_subcommand(1);
+  AddAntialiasingBenchCommand(*bench, result);
   AddBenchReplayCommand(*bench, result);
   auto options = std::make_shared<BenchOptions>();
   CLI::App* command = bench->add_subcommand(

@@ -133,6 +133,8 @@ Result<RgbImage> ShowAll([[maybe_unused]] LiveSession& session, [[maybe_unused]]
   options.camera = source.lens;
   options.scene = scene;
   options.drawing.show_shadow_maps = arguments.shadow_debug;
+  PLEINAIR_ASSIGN_OR_RETURN(options.drawing.antialiasing,
+                            ParseAntialiasing(arguments.antialiasing));
   options.convergence = arguments.light.convergence;
   options.live_camera = source.camera;
   options.seconds = arguments.seconds;
@@ -194,6 +196,8 @@ Result<void> RunLive(const CLI::App& command, const LiveArguments& arguments) {
   options.light.film_response = source.response;
   options.scene = session::WithGiven(*source.scene, arguments.light);
   options.composer.show_shadow_maps = arguments.shadow_debug;
+  PLEINAIR_ASSIGN_OR_RETURN(options.composer.antialiasing,
+                            ParseAntialiasing(arguments.antialiasing));
   const scene::SceneDescription scene = options.scene;
   options.shown_elsewhere = !arguments.headless;
   options.lossless = arguments.lossless;
@@ -285,6 +289,7 @@ void AddLiveCommand(CLI::App& app, CommandResult& result) {
   AddLightChangeOption(*command, "the time between two estimates, a minute", a.light);
   AddSolverOptions(*command, a.light);
   AddModelFileOptions(*command);
+  AddAntialiasingOptions(*command, a.antialiasing);
   command->add_flag("--shadow-debug", a.shadow_debug,
                     "Tint surfaces by shadow-map partition and show the maps (in the window: M)");
   command->add_flag("--headless", a.headless, "Without a window");

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/options/antialiasing_options.h"
 #include "app/replay/replay.h"
 
 namespace pleinair::app {
@@ -21,7 +22,10 @@ struct ReplayArguments {
   std::string shard;  ///< Part of several recordings; empty: all.
   std::string size;
   std::vector<std::string> exports;
-  std::vector<double> fog;
+  struct Drawing {
+    std::vector<double> fog;
+    AntialiasingArguments antialiasing;
+  } drawing;
   struct Day {
     std::string hours, every = "10min";
     std::optional<std::int64_t> frame;

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "app/options/antialiasing_options.h"
 #include "app/options/light_options.h"
 #include "app/options/model_options.h"
 #include "app/options/number_range.h"
@@ -52,13 +53,14 @@ void AddReplayOptions(CLI::App& command, ReplayArguments& arguments) {
   AddLightOptions(command, arguments.options.light);
   AddLightChangeOption(command, "the whole recording", arguments.options.light);
   command
-      .add_option("--fog", arguments.fog,
+      .add_option("--fog", arguments.drawing.fog,
                   "Haze in front of the virtual objects and their shadows, as a multiple of the "
                   "day's own; one number, or one a partition from near to far; 0: none. Default: 1")
       ->delimiter(',')
       ->expected(1, 4)
       ->check(NumberRange(0.0, 1e6))
       ->type_name("TIMES,...");
+  AddAntialiasingOptions(command, arguments.drawing.antialiasing);
   CLI::Option* time_lapse = command.add_option(
       "--time-lapse", arguments.day.hours,
       "Also draw the whole scene, phantoms in their own colours, over its day: timelapse.mp4 and "

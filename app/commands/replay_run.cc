@@ -93,7 +93,9 @@ std::string CommandText(const ReplayArguments& arguments) {
   if (!arguments.research.shadow_sizes.empty()) {
     text += fmt::format(" --shadow-sizes {}", fmt::join(arguments.research.shadow_sizes, ","));
   }
-  if (!arguments.fog.empty()) text += fmt::format(" --fog {}", fmt::join(arguments.fog, ","));
+  if (!arguments.drawing.fog.empty())
+    text += fmt::format(" --fog {}", fmt::join(arguments.drawing.fog, ","));
+  text += AntialiasingOptionText(arguments.drawing.antialiasing);
   if (!arguments.day.hours.empty()) {
     text +=
         " --time-lapse " + Quoted(arguments.day.hours) + " --every " + Quoted(arguments.day.every);
@@ -148,11 +150,14 @@ Result<void> Run(ReplayArguments& arguments) {
     std::copy(arguments.research.shadow_sizes.begin(), arguments.research.shadow_sizes.end(),
               sizes.begin());
   }
-  if (!arguments.fog.empty()) {
+  if (!arguments.drawing.fog.empty()) {
     // Partitions without a value use the last value.
-    options.composer.fog.fill(arguments.fog.back());
-    std::copy(arguments.fog.begin(), arguments.fog.end(), options.composer.fog.begin());
+    options.composer.fog.fill(arguments.drawing.fog.back());
+    std::copy(arguments.drawing.fog.begin(), arguments.drawing.fog.end(),
+              options.composer.fog.begin());
   }
+  PLEINAIR_ASSIGN_OR_RETURN(options.composer.antialiasing,
+                            ParseAntialiasing(arguments.drawing.antialiasing));
   PLEINAIR_RETURN_IF_ERROR(SetRange(arguments, &options.range));
   // A single picture is no video.
   const bool is_still = arguments.range.frame.has_value();

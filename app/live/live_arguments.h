@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "app/options/antialiasing_options.h"
 #include "session/light_options.h"
 
 namespace pleinair::app {
@@ -43,6 +44,7 @@ struct LiveArguments {
   LiveOutputs output;
   LiveWindowArguments window;
   session::LightOptions light;
+  AntialiasingArguments antialiasing;
   std::optional<double> seconds, report_every_s;
   bool headless = false, lossless = false, json = false, shadow_debug = false;
 };

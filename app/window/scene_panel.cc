@@ -283,6 +283,16 @@ void ScenePanel::Shadows(WindowState* state) {
     }
     ImGui::EndCombo();
   }
+  const auto antialiasing = compositor::NameOf(drawing.antialiasing.method);
+  if (ImGui::BeginCombo("antialiasing", std::string(antialiasing).c_str())) {
+    for (const compositor::AntialiasingMethod method : compositor::kAntialiasingMethods) {
+      if (ImGui::Selectable(std::string(compositor::NameOf(method)).c_str(),
+                            method == drawing.antialiasing.method)) {
+        drawing.antialiasing.method = method;
+      }
+    }
+    ImGui::EndCombo();
+  }
   ImGui::SliderInt("partitions", &drawing.shadow_partitions, 1, 4);
   drawing.shadow_partitions = std::clamp(drawing.shadow_partitions, 1, 4);
   for (int i = 0; i < drawing.shadow_partitions; ++i) {

@@ -41,7 +41,8 @@ Result<CoarseRatio> CoarseRatio::Create(const RenderCamera& camera) {
   CoarseRatio coarse;
   coarse.camera_ = CoarserBy(kStep_px, camera);
   PLEINAIR_ASSIGN_OR_RETURN(
-      coarse.targets_, RenderTargets::Create(coarse.camera_.width, coarse.camera_.height, false));
+      coarse.targets_,
+      RenderTargets::Create(coarse.camera_.width, coarse.camera_.height, false, true));
   coarse.values_ = Image<float>(coarse.camera_.width, coarse.camera_.height, 3);
   return coarse;
 }

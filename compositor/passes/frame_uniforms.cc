@@ -1,6 +1,7 @@
 #include "compositor/passes/frame_uniforms.h"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace pleinair::compositor {
@@ -16,6 +17,17 @@ bool FrameUniforms::IsNoticed(const glm::vec3& airlight) const {
   return std::max({shown.r, shown.g, shown.b}) > kNoticeableAir;
 }
 
+FrameUniforms FrameUniforms::SeenThrough(glm::vec2 offset_px, glm::vec2 size_px, int number,
+                                         int count) const {
+  FrameUniforms frame = *this;
+  frame.place = {1.0F / std::sqrt(static_cast<float>(count)), number, count};
+  frame.ray[0] += offset_px.x * ray[1] + offset_px.y * ray[2];
+  glm::mat4 shift(1.0F);  // By the homogeneous coordinate, in clip space.
+  shift[3] = {-2.0F * offset_px.x / size_px.x, -2.0F * offset_px.y / size_px.y, 0.0F, 1.0F};
+  frame.clip_from_marker = shift * clip_from_marker;
+  return frame;
+}
+
 void FrameUniforms::Set(const gl::GlProgram& program) const {
   program.Set("u_eye_m", eye_m);
   program.Set("u_exposure_scale", exposure_scale);
@@ -27,6 +39,7 @@ void FrameUniforms::SetRays(const gl::GlProgram& program) const {
   program.Set("u_ray", ray[0]);
   program.Set("u_ray_x", ray[1]);
   program.Set("u_ray_y", ray[2]);
+  program.Set("u_place_side", place.side);
 }
 
 void FrameUniforms::SetFog(const gl::GlProgram& program) const {

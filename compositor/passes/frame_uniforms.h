@@ -15,6 +15,12 @@ struct EnvironmentMix {
   glm::vec3 up{0.0F, 0.0F, 1.0F};
 };
 
+/// The part of a pixel that is drawn.
+struct PixelPlace {
+  float side = 1.0F;          ///< Of the square that the place stands for, pixels.
+  int number = 0, count = 1;  ///< Among the places drawn one after another.
+};
+
 /// Per-frame uniforms of the programs that shade surfaces. Marker coordinates, metres.
 struct FrameUniforms {
   glm::mat4 clip_from_marker{1.0F};
@@ -23,6 +29,7 @@ struct FrameUniforms {
   glm::vec3 exposure_scale{0.0F};  ///< Display-linear value per radiance.
   glm::vec3 to_sun{0.0F};          ///< Unit; zero without a sun.
   glm::vec3 sun_normal_lux{0.0F};
+  PixelPlace place;
   EnvironmentMix environment;
   std::array<glm::vec4, 2> texture_from_marker{};  ///< For the map of SunTransmittanceMap.
   FogSplits fog;
@@ -33,6 +40,10 @@ struct FrameUniforms {
 
   /// Returns whether light in front of a surface changes a pixel by half a value at black.
   bool IsNoticed(const glm::vec3& airlight) const;
+
+  /// The frame as seen through the place at `offset_px` from each pixel's center, one of `count`.
+  /// `size_px`: of the image. Each place stands for its share of the pixel.
+  FrameUniforms SeenThrough(glm::vec2 offset_px, glm::vec2 size_px, int number, int count) const;
 
   /// Sets the uniforms common to all programs: eye, exposure scale and sun.
   void Set(const gl::GlProgram& program) const;

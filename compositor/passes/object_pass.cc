@@ -9,10 +9,11 @@
 
 namespace pleinair::compositor {
 
-Result<ObjectPass> ObjectPass::Create(bool detailed) {
+Result<ObjectPass> ObjectPass::Create(bool detailed, bool by_places) {
   ObjectPass pass;
   const auto with_details = [&](std::vector<std::string> defines) {
     if (detailed) defines.emplace_back("DETAILED");
+    if (by_places) defines.emplace_back("BY_PLACES");
     return defines;
   };
   PLEINAIR_ASSIGN_OR_RETURN(
@@ -49,6 +50,9 @@ void ObjectPass::DrawSurfaces(const RenderTargets& targets, const SceneSurfaces&
   id_program.Use();
   id_program.Set("u_clip_from_marker", frame.clip_from_marker);
   id_program.Set("u_samples", targets.samples());
+  id_program.Set("u_place_side", frame.place.side);
+  id_program.Set("u_place", frame.place.number);
+  id_program.Set("u_places", frame.place.count);
   surfaces.DrawObjects(id_program);
   glDisable(GL_SCISSOR_TEST);
 }

@@ -20,8 +20,9 @@ namespace pleinair::compositor {
 class ObjectPass {
  public:
   ObjectPass() = default;
-  /// `detailed`: SceneMaterials::HasDetails(). Errors as gl::GlProgram::Create.
-  static Result<ObjectPass> Create(bool detailed);
+  /// `detailed`: SceneMaterials::HasDetails(). `by_places`: for PixelPlace smaller than a pixel,
+  /// whose textures are as sharp. Errors as gl::GlProgram::Create.
+  static Result<ObjectPass> Create(bool detailed, bool by_places);
 
   /// Draws the objects' triangle numbers into the samples. The real surfaces' numbers and depth of
   /// ShadowRatioPass::DrawSurfaces() must be in place. `within` bounds what Draw() draws. Binds

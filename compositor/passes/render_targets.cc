@@ -21,9 +21,11 @@ int RenderTargets::SamplesGiven() {
   return samples;
 }
 
-Result<RenderTargets> RenderTargets::Create(int width, int height, bool detailed) {
+Result<RenderTargets> RenderTargets::Create(int width, int height, bool detailed,
+                                            bool multisampled) {
   const int samples = SamplesGiven();
   RenderTargets targets;
+  targets.multisampled_ = multisampled;
   const auto create_samples = [&](GLenum format) {
     return gl::GlTexture::Create2DMultisample(format, width, height, samples);
   };
@@ -73,6 +75,8 @@ Result<RenderTargets> RenderTargets::Create(int width, int height, bool detailed
 }
 
 void RenderTargets::BeginSurfaces() const {
+  // Without it, all samples of a pixel are those of its center.
+  (multisampled_ ? glEnable : glDisable)(GL_MULTISAMPLE);
   framebuffers_.ids.Bind();
   framebuffers_.ids.ClearUnsigned(0, 0);
   framebuffers_.ids.ClearDepth(1.0F);

@@ -15,7 +15,8 @@ class RenderTargets {
  public:
   /// Errors (system): a size or format that the renderer does not support.
   /// `detailed`: also gradients() and emissions(), drawn with the texels.
-  static Result<RenderTargets> Create(int width, int height, bool detailed);
+  /// `multisampled`: several samples per pixel, else its center alone.
+  static Result<RenderTargets> Create(int width, int height, bool detailed, bool multisampled);
 
   /// Directs drawing to the triangle numbers, one per sample, and their depth; cleared to 0.
   void BeginSurfaces() const;
@@ -43,7 +44,8 @@ class RenderTargets {
   static constexpr int kWantedSamples = 4;
   static int SamplesGiven();
 
-  int samples() const { return samples_.ids.samples(); }
+  /// Samples per pixel that are drawn.
+  int samples() const { return multisampled_ ? samples_.ids.samples() : 1; }
   const gl::GlTexture& ids() const { return samples_.ids; }
   const gl::GlTexture& texels() const { return samples_.texels; }
   /// Bumps of the surface (shaders/surface_gradient.glsl) and texels of its emission, per sample.
@@ -73,6 +75,7 @@ class RenderTargets {
   gl::GlTexture seen_, kinds_;
   VirtualPicture picture_, passed_;
   Framebuffers framebuffers_;
+  bool multisampled_ = true;
 };
 
 }  // namespace pleinair::compositor

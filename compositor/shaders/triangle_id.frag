@@ -4,7 +4,8 @@
 //
 // OBJECT: the triangle belongs to a virtual object. TEXTURED: also writes the textures' base color,
 // roughness and metallic. DETAILED: with the vertices' colors; also writes bumps and emission.
-// ALPHA: writes only the samples that alpha covers.
+// ALPHA: writes only the samples that alpha covers. BY_PLACES: a part of each pixel is drawn, with
+// textures as sharp.
 
 #include "compositor/shaders/visibility_buffer_layout.glsl"
 
@@ -17,6 +18,12 @@ layout(location = 0) out uint out_id;
 #include "compositor/shaders/texel_code.glsl"
 
 in vec2 v_uv;
+uniform float u_place_side;  // As in visible_surface.glsl.
+#ifdef BY_PLACES
+vec4 Texel(sampler2D map, vec2 uv) { return texture(map, uv, log2(u_place_side)); }
+#else
+vec4 Texel(sampler2D map, vec2 uv) { return texture(map, uv); }
+#endif
 layout(binding = 0) uniform sampler2D u_base_color_texture;
 layout(binding = 1) uniform sampler2D u_metallic_roughness_texture;
 layout(location = 1) out vec4 out_texel;
@@ -79,6 +86,9 @@ int FirstSample(ivec2 pixel) {
   return int(h >> 30u);
 }
 
+// PixelPlace::number and count.
+uniform int u_place, u_places;
+
 // Alpha is sampled at each sample position, as the mean over the sample's share of the pixel. The
 // edges of cut-outs therefore stay as sharp with distance as those of surfaces. Where there are not
 // four samples, blended surfaces cover as many as alpha exceeds thresholds (screen-door
@@ -90,16 +100,17 @@ int SamplesCovered() {
       vec2[4](vec2(0.375, 0.125), vec2(0.875, 0.375), vec2(0.125, 0.625), vec2(0.625, 0.875));
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   vec2 step_x = dFdx(v_uv), step_y = dFdy(v_uv);
-  float side = inversesqrt(float(u_samples));  // Side of a sample's share of the pixel.
+  float side = u_place_side * inversesqrt(float(u_samples));  // Of a sample's share of the pixel.
+  int count = u_samples * u_places;
   float minified =
       clamp(textureQueryLod(u_base_color_texture, v_uv).y + log2(side), 0.0, 1.0);
   float dither = u_alpha == 2 ? Dither(pixel) : 0.5;
   int first = FirstSample(pixel), covered = 0;
   for (int i = 0; i < u_samples; ++i) {
-    vec2 aside = kPlaces[i] - 0.5;
+    vec2 aside = u_samples == 1 ? vec2(0.0) : kPlaces[i] - 0.5;
     vec2 uv = v_uv + aside.x * step_x + aside.y * step_y;
     float alpha = AlphaAt(uv, side * step_x, side * step_y);
-    float spread = (float((i + first) % u_samples) + dither) / float(u_samples);
+    float spread = (float((i + u_place + first) % count) + dither) / float(count);
     float threshold = u_alpha == 2 ? spread : mix(u_alpha_cutoff, spread, minified);
     covered |= alpha >= threshold || u_alpha == 0 ? 1 << i : 0;
   }
@@ -114,19 +125,19 @@ void main() {
   out_id |= kObjectBit;
 #endif
 #ifdef TEXTURED
-  vec4 texel = texture(u_base_color_texture, v_uv);
+  vec4 texel = Texel(u_base_color_texture, v_uv);
 #ifdef DETAILED
   texel.rgb *= v_color.rgb;
   vec2 coat =
-      texture(u_metallic_roughness_texture, Coordinates(u_coat_rows, u_coat_offset)).gb;
+      Texel(u_metallic_roughness_texture, Coordinates(u_coat_rows, u_coat_offset)).gb;
   vec2 at = Coordinates(u_normal_rows, u_normal_offset);
-  vec3 bump = 2.0 * texture(u_normal_texture, at).rgb - 1.0;
+  vec3 bump = 2.0 * Texel(u_normal_texture, at).rgb - 1.0;
   out_gradient = vec4(
       u_normal_scale * SurfaceGradient(bump, dFdx(v_position_m), dFdy(v_position_m), dFdx(at), dFdy(at)),
       0.0);
-  out_emission = texture(u_emission_texture, Coordinates(u_emission_rows, u_emission_offset));
+  out_emission = Texel(u_emission_texture, Coordinates(u_emission_rows, u_emission_offset));
 #else
-  vec2 coat = texture(u_metallic_roughness_texture, v_uv).gb;
+  vec2 coat = Texel(u_metallic_roughness_texture, v_uv).gb;
 #endif
   out_texel = vec4(texel.rgb, CodeOfCoat(coat.x, coat.y));
 #ifdef ALPHA
@@ -137,6 +148,7 @@ void main() {
     out_texel.a = CodeOfBlended(coat.x, coat.y, alpha);
     covered = alpha * kAlphaSteps < 0.5 ? 0 : SamplesOfBlended();
   }
+  if (covered == 0) discard;  // The mask has no effect where the pixel's center alone is drawn.
   gl_SampleMask[0] = covered;
 #endif
 #endif

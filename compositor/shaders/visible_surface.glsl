@@ -11,11 +11,12 @@ uniform vec3 u_eye_m;  // Centre of projection, marker coordinates.
 uniform vec3 u_ray;
 uniform vec3 u_ray_x;
 uniform vec3 u_ray_y;
+uniform float u_place_side = 1.0;  // Of the part of the pixel that is shaded, pixels.
 
 struct VisibleSurface {
   vec3 position_m, normal;
   vec3 flat_normal;  // Normal of the triangle on the side of `normal`; unit.
-  vec3 step_x, step_y;  // Change of the position to the next pixel, metres.
+  vec3 step_x, step_y;  // Change of the position along the sides of the shaded part, metres.
   vec3 ambient_with, ambient_without;
   vec3 lift;  // To the curved surface that the normals describe, where that is farther out.
 };
@@ -34,8 +35,8 @@ VisibleSurface VisibleSurfaceOf(BufferVertex a, BufferVertex b, BufferVertex c, 
                           c.position_m - u_eye_m, ray, u_ray_x, u_ray_y);
   VisibleSurface seen;
   seen.position_m = u_eye_m + hit.along * ray;
-  seen.step_x = hit.step_x;
-  seen.step_y = hit.step_y;
+  seen.step_x = u_place_side * hit.step_x;
+  seen.step_y = u_place_side * hit.step_y;
 
   // Barycentric coordinates. The ray through the pixel's centre may miss the triangle that a sample
   // shows. Light is therefore not extrapolated beyond the triangle. The position moves beyond it by

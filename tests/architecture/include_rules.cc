@@ -47,7 +47,7 @@ constexpr std::array kCompositorFolders = {"leaf",     "models", "light",  "phot
 /// lies above.
 std::size_t CompositorFloor(const fs::path& file) {
   const fs::path in_compositor = file.lexically_relative("compositor");
-  if (in_compositor == "composer_options.h") return 0;
+  if (in_compositor == "composer_options.h" || in_compositor == "antialiasing.h") return 0;
   const std::string folder = in_compositor.has_parent_path() ? in_compositor.begin()->string() : "";
   if (folder == "shaders") return 0;
   const auto at = std::find(kCompositorFolders.begin(), kCompositorFolders.end(), folder);

@@ -77,6 +77,45 @@ TEST(BenchShadows, WithAsManyTexelsEachHasZGafBeforeCascadesBeforeThePlainMap) {
   EXPECT_LT(edge("zgaf"), edge("csm-gauss"));
 }
 
+TEST(BenchAntialiasing, ComparesMethodsWithTheTruth) {
+  const RunResult run = RunPleinair({"bench", "antialiasing", "--quick", "--scenes", "boards",
+                                     "--methods", "none,msaa", "--json"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const std::map<std::string, json> rows = RowsByMethod(run.out);
+  ASSERT_EQ(rows.size(), 2U);
+  // Edges at random angles: 0.253 for the center alone, 0.095 for four samples.
+  EXPECT_NEAR(rows.at("none").at("silhouette_rmse").get<double>(), 0.253, 0.05);
+  EXPECT_NEAR(rows.at("msaa").at("silhouette_rmse").get<double>(), 0.095, 0.02);
+  for (const char* key : {"rmse", "shadow_rmse", "inside_rmse", "worst", "shimmer", "truth_shimmer",
+                          "ms", "cpu_ms", "ratio_to_none"}) {
+    EXPECT_TRUE(rows.at("msaa").contains(key)) << key;
+  }
+  EXPECT_GT(rows.at("none").at("shimmer"), rows.at("msaa").at("shimmer"));
+}
+
+TEST(BenchAntialiasing, RefusesWhatItDoesNotKnow) {
+  EXPECT_EQ(RunPleinair({"bench", "antialiasing", "--methods", "fxaa"}).exit_code, 2);
+  EXPECT_EQ(RunPleinair({"bench", "antialiasing", "--scenes", "forest"}).exit_code, 2);
+  EXPECT_EQ(RunPleinair({"bench", "antialiasing", "--size", "0x0"}).exit_code, 2);
+}
+
+// Refused before the recording is opened.
+TEST(Antialiasing, UnknownMethodsAndUselessSamplesAreRefused) {
+  const std::vector<std::vector<std::string>> refused{
+      {"--antialiasing", "fxaa"},
+      {"--antialiasing", "reference", "--antialiasing-samples", "5"},
+      {"--antialiasing", "none", "--antialiasing-samples", "16"},
+      {"--antialiasing", "msaa", "--antialiasing-samples", "16"},
+      {"--antialiasing-samples", "16"}};
+  for (const std::vector<std::string>& options : refused) {
+    std::vector<std::string> arguments{"replay", "no-recording", "-o", "out"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const RunResult run = RunPleinair(arguments);
+    EXPECT_EQ(run.exit_code, 2);
+    EXPECT_THAT(run.err, ::testing::HasSubstr("--antialiasing"));
+  }
+}
+
 TEST(BenchShadows, RefusesWhatItDoesNotKnow) {
   ExpectRefused(RunPleinair({"bench", "shadows", "--quick", "--methods", "raytracing"}),
                 "no method 'raytracing'");

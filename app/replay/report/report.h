@@ -8,6 +8,7 @@
 
 #include "app/output/light_csv.h"
 #include "base/stage_times.h"
+#include "compositor/antialiasing.h"
 #include "devices/films/film_curve.h"
 #include "scene/scene_description.h"
 #include "session/anchors.h"
@@ -40,6 +41,7 @@ struct ReplayedFilm {
   std::int64_t first_frame = 0;                          ///< Index in the recording.
   std::int64_t frames = 0;
   std::optional<std::int64_t> clock_start_ns;  ///< Its start by the camera's own clock.
+  compositor::Antialiasing antialiasing;       ///< Of the virtual objects in it.
 };
 
 /// The composited scene.

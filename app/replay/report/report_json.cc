@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/quantile.h"
+#include "compositor/passes/render_targets.h"
 
 namespace pleinair::app {
 namespace {
@@ -134,6 +135,14 @@ Json SurfaceColorsJson(const std::vector<session::SurfaceColorSummary>& colors) 
                     {"places", color.measured.places}});
   }
   return list;
+}
+
+/// Samples or places of a pixel.
+int SamplesOf(const compositor::Antialiasing& antialiasing) {
+  using Method = compositor::AntialiasingMethod;
+  if (antialiasing.method == Method::kNone) return 1;
+  return antialiasing.method == Method::kReference ? antialiasing.places
+                                                   : compositor::RenderTargets::kWantedSamples;
 }
 
 Json LightJson(const session::LightSummary& light) {
@@ -299,6 +308,9 @@ std::string ReportJson(const ReplayReport& report) {
   json["cloudiness"] = CloudinessName(report.scene.cloudiness);
   json["virtual_objects"] = report.scene.virtual_objects;
   json["phantoms"] = report.scene.phantoms;
+  const compositor::Antialiasing& antialiasing = report.film.antialiasing;
+  json["antialiasing"] = {{"method", compositor::NameOf(antialiasing.method)},
+                          {"samples", SamplesOf(antialiasing)}};
   json["light"] = report.light ? LightJson(*report.light) : Json();
   if (report.light) json["light"]["changes"] = ChangesJson(report.light_changes);
   json["video_encoder"] =

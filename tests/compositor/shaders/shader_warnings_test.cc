@@ -8,6 +8,7 @@
 
 #include "compositor/embedded_shaders.h"
 #include "compositor/passes/object_pass.h"
+#include "compositor/passes/place_mean.h"
 #include "compositor/passes/shadow_debug_view.h"
 #include "compositor/passes/shadow_ratio_pass.h"
 #include "compositor/passes/surface_programs.h"
@@ -76,7 +77,12 @@ TEST_F(ShaderWarnings, AreNoneOfSurfaces) {
 }
 
 TEST_F(ShaderWarnings, AreNoneOfPassesAndPicture) {
-  for (const bool detailed : {false, true}) ExpectCreated(ObjectPass::Create(detailed));
+  for (const bool detailed : {false, true}) {
+    for (const bool by_places : {false, true}) {
+      ExpectCreated(ObjectPass::Create(detailed, by_places));
+    }
+  }
+  ExpectCreated(PlaceMean::Create(32, 24, {AntialiasingMethod::kReference, 4}));
   ExpectCreated(ShadowRatioPass::Create());
   ExpectCreated(ShadowDebugView::Create(SmallMaps(shadows::ShadowMethod::kSunDisc), 32, 24));
   const CameraModel camera{.width = 32, .height = 24, .fx = 30, .fy = 30, .cx = 15.5, .cy = 11.5};

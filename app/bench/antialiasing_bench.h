@@ -1,0 +1,48 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/bench/antialiasing_errors.h"
+#include "base/error.h"
+#include "compositor/antialiasing.h"
+
+namespace pleinair::app {
+
+/// A method by its name in options and tables.
+struct AntialiasingBenchMethod {
+  std::string_view name;
+  compositor::Antialiasing antialiasing;
+};
+
+/// none, msaa, ssaa16 (16 shaded places a pixel) and reference (64).
+std::span<const AntialiasingBenchMethod> AntialiasingBenchMethods();
+
+struct AntialiasingBenchOptions {
+  std::vector<std::string> scenes;   ///< Names; empty: all.
+  std::vector<std::string> methods;  ///< Names; empty: all.
+  int width = 320, height = 240;
+  int rounds = 5;        ///< All methods in turn; the median counts.
+  int creep_frames = 6;  ///< The camera moves by 0.1 px a frame.
+};
+
+/// Results of one method in one scene.
+struct AntialiasingBenchRow {
+  std::string scene, method;
+  AntialiasingErrors errors;
+  double shimmer = 0.0, truth_shimmer = 0.0;
+  double ms = 0.0;             ///< Of one composed image.
+  double cpu_ms = 0.0;         ///< Processor time of all threads.
+  double ratio_to_none = 0.0;  ///< Of processor times; 0 if `none` is not measured.
+};
+
+/// Runs the benchmark. The truth is `reference`. Calls `advance` once a scene for its truth and
+/// after every row, and `on_row` with each row. Errors: no OpenGL 4.5 (system).
+Result<void> RunAntialiasingBench(const AntialiasingBenchOptions& options,
+                                  const std::function<void()>& advance,
+                                  const std::function<void(const AntialiasingBenchRow&)>& on_row);
+
+}  // namespace pleinair::app

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <array>
+#include <string_view>
+
+namespace pleinair::compositor {
+
+/// How a pixel that shows several surfaces gets its color. All methods average linear light.
+enum class AntialiasingMethod {
+  kMultisample,  ///< Four samples of geometry. Each surface of a pixel is shaded once.
+  kNone,         ///< The surface at the pixel's center.
+  kReference,    ///< Each place of SamplePlaces() is drawn and shaded for itself.
+};
+
+inline constexpr std::array<AntialiasingMethod, 3> kAntialiasingMethods{
+    AntialiasingMethod::kMultisample, AntialiasingMethod::kNone, AntialiasingMethod::kReference};
+
+/// As users name it.
+constexpr std::string_view NameOf(AntialiasingMethod method) {
+  if (method == AntialiasingMethod::kNone) return "none";
+  return method == AntialiasingMethod::kReference ? "reference" : "msaa";
+}
+
+struct Antialiasing {
+  AntialiasingMethod method = AntialiasingMethod::kMultisample;
+  int places = 64;  ///< Of a pixel, for kReference: 4, 8, 16, 32 or 64.
+
+  /// Places that are drawn one after another.
+  constexpr int DrawnPlaces() const {
+    return method == AntialiasingMethod::kReference ? places : 1;
+  }
+  bool operator==(const Antialiasing&) const = default;
+};
+
+}  // namespace pleinair::compositor
