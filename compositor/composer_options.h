@@ -36,7 +36,7 @@ struct DrawReductions {
 
 /// How a Composer draws.
 struct ComposerOptions {
-  Antialiasing antialiasing;
+  Antialiasing antialiasing = {};
   /// Render pixels per camera pixel and side, in addition to the antialiasing. 0: 1 for a lens
   /// without distortion, 1.5 for one with distortion, whose image is warped.
   double supersampling = 0.0;

@@ -60,8 +60,8 @@ uniform int u_surface;  // Unique per surface.
 // alpha (virtual_object.frag).
 const float kMaxBlended = 0.995;
 
-// Two of four samples. Of two surfaces behind each other, each hides a sample of its own, and what
-// is behind both keeps one.
+// Two of four samples. Two surfaces behind each other each hide a sample of their own, and what is
+// behind both keeps one.
 int SamplesOfBlended() { return 8 | 1 << (u_surface % 3); }
 
 float AlphaAt(vec2 uv, vec2 step_x, vec2 step_y) {

@@ -68,7 +68,7 @@ class ImageTiles {
   Range RangeOf(glm::vec2 low, glm::vec2 high) const;
   void Include(const Range& range);
   /// Adds the tiles of a triangle of which a part is nearer than `near_m`, by its corners in clip
-  /// space; all tiles if a coordinate is not a number.
+  /// space. Adds all tiles if a coordinate is not a number.
   void IncludeCut(const std::array<glm::vec4, 3>& clip, float near_m, float margin_px);
 
   glm::ivec2 size_px_, tiles_;

@@ -28,8 +28,8 @@ inline constexpr std::size_t kGap = kNearlyOpen + 1, kCellStates = kGap + 1;
 /// What a hypothesis about the light predicts for one cell.
 struct CellPrediction {
   /// Brightness of the surface as described: logarithm of cd/m². In the open, behind something
-  /// solid, in a gap of a crown, and with each share of kBands beneath one, which hides more of the
-  /// sky.
+  /// solid, in a gap of a crown, and with each share of kBands beneath a crown. Crowns hide more of
+  /// the sky.
   double open = 0.0, dark = 0.0, gap = 0.0;
   std::array<double, kBands.size()> crown{};
   bool in_sun = false;  ///< Unmodelled shade can darken it; all other cells are open.

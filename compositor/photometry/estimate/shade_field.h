@@ -14,9 +14,9 @@ namespace pleinair::compositor {
 /// What shades one place shades its neighbours across the sun's rays as well, on whatever surface
 /// they lie.
 ///
-/// A place has one of some mixes of unmodelled shade. Its prior probabilities are the mean of the
-/// posterior ones of its neighbours, which count by a normal distribution of their distance across
-/// the rays, and of one observation to which all mixes are alike.
+/// A place has one of some mixes of unmodelled shade. Its prior probabilities are a mean of the
+/// posterior ones of its neighbours. These count by a normal distribution of their distance across
+/// the rays. One more observation, to which all mixes are alike, counts with them.
 class ShadeField {
  public:
   /// Only cells with a sunny part are neighbours. `to_sun`: unit, marker coordinates.
