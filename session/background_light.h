@@ -33,11 +33,10 @@ namespace pleinair::session {
 /// of sun and sky. The first light is a draft with very few rays, so that the first frame need not
 /// wait. The next ones are traced with few rays. Meanwhile daylight coefficients are computed; with
 /// them each further light takes a fraction of a second. A moved object restarts this, and is drawn
-/// with the last light until its next light is ready. A moved phantom changes with its next light, a draft while it is
-/// dragged.
-/// Afterwards the phantoms' shadows in the frames are used to estimate the light, as in replay,
-/// once a minute. LightFilter combines these estimates. The first that shows the color of a
-/// described surface without one gives it; it stays for the session.
+/// with the last light until its next light is ready. A moved phantom changes with its next light,
+/// a draft while it is dragged. Afterwards the phantoms' shadows in the frames are used to estimate
+/// the light, as in replay, once a minute. LightFilter combines these estimates. The first that
+/// shows the color of a described surface without one gives it; it stays for the session.
 class BackgroundLight {
  public:
   struct Setup {
