@@ -21,9 +21,10 @@ constexpr std::string_view NameOf(AntialiasingMethod method) {
   return method == AntialiasingMethod::kReference ? "reference" : "msaa";
 }
 
+/// A method of antialiasing and what it needs to be told.
 struct Antialiasing {
   AntialiasingMethod method = AntialiasingMethod::kMultisample;
-  int places = 64;  ///< Of a pixel, for kReference: 4, 8, 16, 32 or 64.
+  int places = 64;  ///< Places of a pixel, for kReference: 4, 8, 16, 32 or 64.
 
   /// Places that are drawn one after another.
   constexpr int DrawnPlaces() const {

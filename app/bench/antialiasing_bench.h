@@ -21,6 +21,7 @@ struct AntialiasingBenchMethod {
 /// none, msaa, ssaa16 (16 shaded places a pixel) and reference (64).
 std::span<const AntialiasingBenchMethod> AntialiasingBenchMethods();
 
+/// What a run of the benchmark compares, and how long.
 struct AntialiasingBenchOptions {
   std::vector<std::string> scenes;   ///< Names; empty: all.
   std::vector<std::string> methods;  ///< Names; empty: all.
@@ -34,9 +35,9 @@ struct AntialiasingBenchRow {
   std::string scene, method;
   AntialiasingErrors errors;
   double shimmer = 0.0, truth_shimmer = 0.0;
-  double ms = 0.0;             ///< Of one composed image.
+  double ms = 0.0;             ///< Time to compose one image.
   double cpu_ms = 0.0;         ///< Processor time of all threads.
-  double ratio_to_none = 0.0;  ///< Of processor times; 0 if `none` is not measured.
+  double ratio_to_none = 0.0;  ///< Processor time over that of `none`; 0 if that is not measured.
 };
 
 /// Runs the benchmark. The truth is `reference`. Calls `advance` once a scene for its truth and

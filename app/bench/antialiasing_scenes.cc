@@ -95,11 +95,20 @@ Vec3 InView(double x_px, double y_px, double depth_m, const CameraModel& camera)
                      -(y_px - camera.cy) / camera.fy * depth_m};
 }
 
+/// Uniform random numbers, the same with every standard library.
+class UniformNumbers {
+ public:
+  explicit UniformNumbers(unsigned seed) : random_(seed) {}
+  double operator()(double low, double high) {
+    return low + (high - low) * (static_cast<double>(random_()) / 4294967296.0);
+  }
+
+ private:
+  std::mt19937 random_;
+};
+
 PlacedModel Boards(const CameraModel& camera) {
-  std::mt19937 random(7);
-  const auto uniform = [&](double low, double high) {
-    return low + (high - low) * (static_cast<double>(random()) / 4294967296.0);
-  };
+  UniformNumbers uniform(7);
   Mesh mesh;
   for (int i = 0; i < 24; ++i) {
     const double angle = uniform(0, std::numbers::pi), tilt = uniform(-0.6, 0.6);
@@ -110,8 +119,8 @@ PlacedModel Boards(const CameraModel& camera) {
     const Vec3 u = Normalized(along) * length;
     const Vec3 v = Normalized(Cross({0, 1, 0}, u)) * width;
     const Vec3 w = Normalized(Cross(u, v)) * (0.2 * width);
-    const Vec3 middle = InView(uniform(0.1, 0.9) * camera.width, uniform(0.1, 0.9) * camera.height,
-                               kDistance_m + uniform(-0.5, 0.5), camera);
+    const double x_px = uniform(0.1, 0.9) * camera.width, y_px = uniform(0.1, 0.9) * camera.height;
+    const Vec3 middle = InView(x_px, y_px, kDistance_m + uniform(-0.5, 0.5), camera);
     AddBox(middle - (u + v) * 0.5, u, v, w, &mesh);
   }
   return Placed(std::move(mesh), White(), false);
@@ -159,19 +168,16 @@ Image<std::uint8_t> LeafTexture() {
 }
 
 PlacedModel LeavesOfTwig(const CameraModel& camera) {
-  std::mt19937 random(11);
-  const auto uniform = [&](double low, double high) {
-    return low + (high - low) * (static_cast<double>(random()) / 4294967296.0);
-  };
+  UniformNumbers uniform(11);
   Mesh mesh;
   for (int i = 0; i < 60; ++i) {
     const double side = uniform(0.03, 0.09) * camera.width * kDistance_m / camera.fx;
     const double angle = uniform(0, 2 * std::numbers::pi), tilt = uniform(-0.8, 0.8);
     const Vec3 u{std::cos(angle) * side, std::sin(tilt) * side * 0.5, std::sin(angle) * side};
     const Vec3 v = Normalized(Cross({0, 1, 0}, u)) * side;
-    AddFace(InView(uniform(0.15, 0.85) * camera.width, uniform(0.15, 0.85) * camera.height,
-                   kDistance_m + uniform(-0.5, 0.5), camera),
-            u, v, &mesh);
+    const double x_px = uniform(0.15, 0.85) * camera.width;
+    const double y_px = uniform(0.15, 0.85) * camera.height;
+    AddFace(InView(x_px, y_px, kDistance_m + uniform(-0.5, 0.5), camera), u, v, &mesh);
   }
   Material material = White();
   material.base_color_texture = 0;

@@ -23,7 +23,7 @@ struct LiveSource {
   CameraModel lens;
   std::optional<scene::SceneDescription> scene;
   CameraResponse response = {};                  ///< By a film's tags.
-  std::shared_ptr<LiveTrajectory> trajectory{};  ///< Of the scene; null without one.
+  std::shared_ptr<LiveTrajectory> trajectory{};  ///< The scene's; null without one.
 };
 
 /// Opens the camera, or the recording that is played at its pace. Errors: those of recording, lens

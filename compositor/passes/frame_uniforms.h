@@ -17,7 +17,7 @@ struct EnvironmentMix {
 
 /// The part of a pixel that is drawn.
 struct PixelPlace {
-  float side = 1.0F;          ///< Of the square that the place stands for, pixels.
+  float side = 1.0F;          ///< Side of the square that the place stands for, pixels.
   int number = 0, count = 1;  ///< Among the places drawn one after another.
 };
 

@@ -100,7 +100,7 @@ int SamplesCovered() {
       vec2[4](vec2(0.375, 0.125), vec2(0.875, 0.375), vec2(0.125, 0.625), vec2(0.625, 0.875));
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   vec2 step_x = dFdx(v_uv), step_y = dFdy(v_uv);
-  float side = u_place_side * inversesqrt(float(u_samples));  // Of a sample's share of the pixel.
+  float side = u_place_side * inversesqrt(float(u_samples));  // Side of a sample's share of the pixel.
   int count = u_samples * u_places;
   float minified =
       clamp(textureQueryLod(u_base_color_texture, v_uv).y + log2(side), 0.0, 1.0);

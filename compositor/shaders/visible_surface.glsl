@@ -11,7 +11,7 @@ uniform vec3 u_eye_m;  // Centre of projection, marker coordinates.
 uniform vec3 u_ray;
 uniform vec3 u_ray_x;
 uniform vec3 u_ray_y;
-uniform float u_place_side = 1.0;  // Of the part of the pixel that is shaded, pixels.
+uniform float u_place_side = 1.0;  // Side of the part of the pixel that is shaded, pixels.
 
 struct VisibleSurface {
   vec3 position_m, normal;

@@ -4,9 +4,11 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <glm/glm.hpp>
 #include <random>
 
 #include "compositor/antialiasing.h"
+#include "compositor/surfaces/sample_places.h"
 #include "tests/compositor/composer_scene.h"
 
 namespace pleinair::compositor {
@@ -106,7 +108,12 @@ TEST(ComposerAntialiasing, AnImageOfOnePixelIsTheMeanOfItsPlaces) {
     const RgbImage image = Compose({WhiteBoard(0.0)}, black, camera, kSunLux, Using(method));
     const double covered = LinearFromSrgb8()[image(0, 0, 0)];
     if (method == AntialiasingMethod::kReference) {
-      EXPECT_NEAR(covered, 2.0 / 3, 0.03) << "0.75 m by 0.5 m of 0.75 m by 0.75 m";
+      // The board is wider than the pixel, and 2/3 of it high.
+      const auto places = SamplePlaces(64);
+      const auto on_board = std::count_if(places.begin(), places.end(), [](glm::vec2 place) {
+        return std::abs(place.y) < 1.0F / 3;
+      });
+      EXPECT_NEAR(covered, static_cast<double>(on_board) / 64, 0.004);
     } else {
       EXPECT_GE(covered, method == AntialiasingMethod::kNone ? 1.0 : 0.5);
     }

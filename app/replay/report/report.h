@@ -41,7 +41,7 @@ struct ReplayedFilm {
   std::int64_t first_frame = 0;                          ///< Index in the recording.
   std::int64_t frames = 0;
   std::optional<std::int64_t> clock_start_ns;  ///< Its start by the camera's own clock.
-  compositor::Antialiasing antialiasing;       ///< Of the virtual objects in it.
+  compositor::Antialiasing antialiasing;       ///< How the objects' edges are smoothed.
 };
 
 /// The composited scene.

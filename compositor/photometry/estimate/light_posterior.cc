@@ -95,9 +95,11 @@ class Fit {
  private:
   MarkerExposure Exposure(double log_scale, const Kind& kind, double shaded) const;
   ShadedLevels InSun(double log_scale, const Kind& kind) const;
-  /// Logarithmic likelihood of the errors of the exposure scale, without neighbours.
-  LevelFunction RoughEvidence(double log_scale, const Kind& kind, const ShadedLevels& levels) const;
-  KindEvidence SunEvidence(double log_scale, const Kind& kind) const;
+  /// Adds the marker's prior of the exposure scale, if half of its place is shaded.
+  LevelFunction WithMarker(double log_scale, const Kind& kind, LevelFunction uncoupled) const;
+  /// `uncoupled`: ShadedLevels::Uncoupled() of this scale and kind.
+  KindEvidence SunEvidence(double log_scale, const Kind& kind,
+                           const LevelFunction& uncoupled) const;
   /// The evidence of all scales and kinds. Scales that are far from likely have none.
   std::vector<ByKind> SunEvidence() const;
   double CloudEvidence() const;
@@ -129,24 +131,25 @@ ShadedLevels Fit::InSun(double log_scale, const Kind& kind) const {
           }};
 }
 
-LevelFunction Fit::RoughEvidence(double log_scale, const Kind& kind,
-                                 const ShadedLevels& levels) const {
-  LevelFunction rough = levels.Uncoupled();
+LevelFunction Fit::WithMarker(double log_scale, const Kind& kind, LevelFunction uncoupled) const {
   const MarkerExposure anywhere = Exposure(log_scale, kind, 0.5);
-  for (int i = 0; i < LevelGrid::kCount; ++i) rough[i] += anywhere.LogPrior(LevelGrid::At(i));
-  return rough;
+  for (int i = 0; i < LevelGrid::kCount; ++i) uncoupled[i] += anywhere.LogPrior(LevelGrid::At(i));
+  return uncoupled;
 }
 
-KindEvidence Fit::SunEvidence(double log_scale, const Kind& kind) const {
+KindEvidence Fit::SunEvidence(double log_scale, const Kind& kind,
+                              const LevelFunction& uncoupled) const {
   ShadedLevels levels = InSun(log_scale, kind);
-  const LevelFunction rough = RoughEvidence(log_scale, kind, levels);
+  const LevelFunction rough = WithMarker(log_scale, kind, uncoupled);
   const double likely = *std::max_element(rough.begin(), rough.end()) - kNegligible;
   std::vector<double> errors, logs, shades;
   for (int i = LevelGrid::kCount - 1; i >= 0; i -= kExposureStep) {
-    if (rough[i] < likely && i > 0 && rough[i - 1] < likely) continue;
+    if (rough[i] < likely && (i == 0 || rough[i - 1] < likely)) continue;
     const double e = LevelGrid::At(i);
-    if (errors.empty()) levels.At(e);
-    const double log = levels.At(e);
+    // Neighbours change nothing where there is one mix.
+    const bool is_coupled = kind.count > 1;
+    if (is_coupled && errors.empty()) levels.At(e);
+    const double log = is_coupled ? levels.At(e) : uncoupled[i];
     const MarkerExposure exposure = Exposure(log_scale, kind, levels.ShareOnMarker());
     errors.push_back(e);
     logs.push_back(log + exposure.LogPrior(e));
@@ -173,23 +176,29 @@ std::vector<ByKind> Fit::SunEvidence() const {
     const double z = log_scale / doubt;
     return -0.5 * z * z - std::log(doubt * std::sqrt(2 * std::numbers::pi) / kScaleStep);
   };
+  std::vector<std::array<LevelFunction, kKinds.size()>> uncoupled(scales_.size());
   std::vector<std::array<double, kKinds.size()>> rough(scales_.size());
   ParallelFor(scales_.size(), 0, [&](std::size_t i) {
     for (std::size_t k = 0; k < kKinds.size(); ++k) {
-      const ShadedLevels levels = InSun(scales_[i], kKinds[k]);
-      rough[i][k] = LogSum(RoughEvidence(scales_[i], kKinds[k], levels)) + log_prior(scales_[i]);
+      uncoupled[i][k] = InSun(scales_[i], kKinds[k]).Uncoupled();
+      rough[i][k] =
+          LogSum(WithMarker(scales_[i], kKinds[k], uncoupled[i][k])) + log_prior(scales_[i]);
     }
   });
+  std::array<double, kKinds.size()> likely;
+  likely.fill(-std::numeric_limits<double>::infinity());
+  for (const auto& kinds : rough) {
+    for (std::size_t k = 0; k < kKinds.size(); ++k)
+      likely[k] = std::max(likely[k], kinds[k] - kUnlikely);
+  }
   std::vector<ByKind> found(scales_.size());
   ParallelFor(scales_.size(), 0, [&](std::size_t i) {
     for (std::size_t k = 0; k < kKinds.size(); ++k) {
-      double best = rough.front()[k];
-      for (const auto& kinds : rough) best = std::max(best, kinds[k]);
-      if (rough[i][k] < best - kUnlikely) {
+      if (rough[i][k] < likely[k]) {
         found[i][k].log = -std::numeric_limits<double>::infinity();
         continue;
       }
-      found[i][k] = SunEvidence(scales_[i], kKinds[k]);
+      found[i][k] = SunEvidence(scales_[i], kKinds[k], uncoupled[i][k]);
       found[i][k].log += log_prior(scales_[i]);
     }
   });

@@ -21,8 +21,7 @@ struct MarkerLight {
 class MarkerExposure {
  public:
   /// `sky`: all light but the sun's. `shaded`: the expected share of unmodelled shade where the
-  /// marker lies. `taken`: the mean share of `sky` that its caster
-  /// hides there.
+  /// marker lies. `taken`: the mean share of `sky` that its caster hides there.
   MarkerExposure(const MarkerLight& marker, LinearRgb sky, LinearRgb sun, double shaded,
                  double taken);
 

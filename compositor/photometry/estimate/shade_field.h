@@ -11,18 +11,18 @@
 
 namespace pleinair::compositor {
 
-/// What shades one place shades its neighbours across the sun's rays as well, on whatever surface
-/// they lie.
+/// Prior probabilities of the unmodelled shade at each place, from the shade of its neighbours
+/// across the sun's rays (docs/method/light-fit.md, Eq. 1a).
 ///
-/// A place has one of some mixes of unmodelled shade. Its prior probabilities are a mean of the
-/// posterior ones of its neighbours. These count by a normal distribution of their distance across
-/// the rays. One more observation, to which all mixes are alike, counts with them.
+/// What shades one place shades its neighbours as well, on whatever surface they lie. A place has
+/// one of some mixes of shade. Its prior probabilities are a mean of the posterior ones of its
+/// neighbours. These count by a normal distribution of their distance across the rays. One more
+/// observation, to which all mixes are alike, counts with them.
 class ShadeField {
  public:
   /// Only cells with a sunny part are neighbours. `to_sun`: unit, marker coordinates.
   ShadeField(const std::vector<LightCell>& cells, Vec3 to_sun);
 
-  std::size_t cells() const { return neighbours_.size() - 1; }
   /// Prior probabilities, one row of `mixes` a cell and a last row of the marker's middle.
   /// `posterior` has one row a cell.
   std::vector<double> Prior(std::span<const double> posterior, std::size_t mixes) const;

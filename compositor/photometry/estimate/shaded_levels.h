@@ -12,8 +12,10 @@
 
 namespace pleinair::compositor {
 
-/// Levels of all surfaces and mixes of unmodelled shade on all cells together, under one hypothesis
-/// about the light: each depends on the other. They are found in turn at one error of the exposure
+/// Estimates the levels of all surfaces together with the unmodelled shade on all cells, under one
+/// hypothesis about the light.
+///
+/// Each depends on the other, so they are found in turn. This is done at one error of the exposure
 /// scale after the other; the result at one is the start of the next.
 class ShadedLevels {
  public:
@@ -56,7 +58,7 @@ class ShadedLevels {
     std::vector<LevelFunction> sky_error_given_level;  // Probabilities.
     LevelFunction log{};                               // Logarithmic likelihood of u.
   };
-  using SurfaceDensities = std::vector<Densities>;  // Of each plane.
+  using SurfaceDensities = std::vector<Densities>;  // One a plane.
 
   Densities DensitiesOf(const Plane& plane) const;
   SurfaceEvidence EvidenceOf(const std::vector<Plane>& planes, SurfaceDensities* densities) const;
