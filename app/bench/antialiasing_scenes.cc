@@ -223,7 +223,8 @@ PlacedModel Torus() {
   return Placed(std::move(mesh), material, false);
 }
 
-/// The floor of the paper's Figure 6.
+/// The floor of Figure 6 of Chiu, Chen, Chang & Lee: Subpixel reconstruction antialiasing for ray
+/// tracing (WSCG 2012).
 PlacedModel Floor() {
   constexpr int kSide = 64, kSquares = 4;
   Image<std::uint8_t> texture(kSide, kSide, 3);

@@ -12,8 +12,8 @@ namespace pleinair::compositor {
 /// Logarithmic error of a level: a surface's albedo and the frames' exposure scale together.
 class LevelGrid {
  public:
-  static constexpr int kCount = 101;
-  static constexpr double kStep = 0.06, kFirst = -3.0;
+  static constexpr int kCount = 201;
+  static constexpr double kStep = 0.03, kFirst = -3.0;
   static double At(int i) { return kFirst + kStep * i; }
 };
 /// A function of that error.

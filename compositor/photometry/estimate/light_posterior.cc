@@ -57,7 +57,7 @@ constexpr std::array<ShadedLevels::SkyError, 3> kSkyErrors{
 constexpr std::array kNoSkyError{ShadedLevels::SkyError{}};
 // Errors of the exposure scale are tried in this step of the grid, unless their probability without
 // neighbours is below the largest by this logarithm.
-constexpr int kExposureStep = 2;
+constexpr int kExposureStep = 4;
 constexpr double kNegligible = 12.0;
 // The same of the sky's scales within a kind of place. Neighbours change more there.
 constexpr double kUnlikely = 20.0;
@@ -144,7 +144,8 @@ KindEvidence Fit::SunEvidence(double log_scale, const Kind& kind,
   const double likely = *std::max_element(rough.begin(), rough.end()) - kNegligible;
   std::vector<double> errors, logs, shades;
   for (int i = LevelGrid::kCount - 1; i >= 0; i -= kExposureStep) {
-    if (rough[i] < likely && (i == 0 || rough[i - 1] < likely)) continue;
+    const int before = std::max(0, i - kExposureStep + 1);
+    if (*std::max_element(&rough[before], &rough[i] + 1) < likely) continue;
     const double e = LevelGrid::At(i);
     // Neighbours change nothing where there is one mix.
     const bool is_coupled = kind.count > 1;

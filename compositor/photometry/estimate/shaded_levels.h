@@ -31,10 +31,11 @@ class ShadedLevels {
                std::span<const UnmodelledShade> mixes, std::span<const SkyError> sky_errors,
                double plane_error, const Predict& predict);
 
-  /// Logarithmic likelihood of each error e of the exposure scale where all mixes are as probable
+  /// Logarithmic likelihood of each error e of the exposure scale, where all mixes are as probable
   /// on each cell, whatever is around it.
   LevelFunction Uncoupled() const;
-  /// The same of one error, by the mixes around each cell.
+  /// Logarithmic pseudo-likelihood of one error, by the mixes around each cell (Besag 1975): the
+  /// product over the cells of the density of each, given what its neighbours show.
   double At(double e);
 
   // After At(e).

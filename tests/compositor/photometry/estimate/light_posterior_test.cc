@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <random>
 #include <vector>
 
 #include "compositor/photometry/estimate/shade_field.h"
@@ -205,6 +206,25 @@ TEST(ShadeField, ExpectsAroundAPlaceWhatItsNeighboursShow) {
   EXPECT_LT(prior[2 * 19], 0.2);
   EXPECT_NEAR(prior[2 * 9], 0.5, 0.15) << "between both";
   EXPECT_NEAR(prior[2 * 20], prior[0], 0.1) << "the marker lies beside the first";
+}
+
+TEST(ShadedLevels, DoesNotDependOnWhereLevelsLieBetweenPointsOfTheGrid) {
+  const auto evidence = [](double shift) {
+    std::vector<LightCell> cells = Row(80);
+    std::mt19937 random(3);
+    std::normal_distribution<double> pattern(0.0, 0.06);
+    for (LightCell& cell : cells)
+      cell.sunny->log_rgb.fill(std::log(14 * 0.3 / std::numbers::pi) + pattern(random) + shift);
+    constexpr std::array<UnmodelledShade, 1> kNone{{{0.01}}};
+    constexpr std::array kNoError{ShadedLevels::SkyError{}};
+    return LogSum(
+        ShadedLevels(cells, nullptr, {0, 0, 1}, kNone, kNoError, 0.15,
+                     [](const LightCell& cell, double) { return PredictInSun(cell, 0.0, 0.0); })
+            .Uncoupled());
+  };
+  const double at_rest = evidence(0.0);
+  for (const double part : {0.25, 0.5, 0.75})
+    EXPECT_NEAR(evidence(part * LevelGrid::kStep), at_rest, 0.5) << part;
 }
 
 TEST(ShadedLevels, TakesADarkSurfaceForShadedWhereItsNeighboursAre) {
