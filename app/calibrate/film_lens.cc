@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <utility>
+#include <vector>
 
 #include "app/terminal/interrupt.h"
 #include "app/terminal/progress_bar.h"
@@ -18,34 +20,55 @@ using tracker::MarkerViewCollector;
 /// than this share of its deviation.
 constexpr int kMaxRounds = 5;
 constexpr double kSettled = 0.1;
+/// Images that do not follow each other are searched in such groups, on all processors.
+constexpr std::size_t kSearchedAtOnce = 8;
 /// A larger difference between tag and film is reported: the film is cropped, or the tag is wrong.
 constexpr double kTagDiffers = 0.03;
 
-/// Collects the views of all frames.
-Result<MarkerViewCollector> Collect(PictureStream& pictures, const std::string& source,
-                                    const tracker::MarkerViewOptions& options, ImageSize* size,
-                                    FilmLens* film) {
-  std::optional<MarkerViewCollector> collector;
-  ProgressBar bar("Finding markers", pictures.Count(), "images");
-  while (true) {
-    if (InterruptGuard::Interrupted()) return SystemError("", "interrupted", "");
-    PLEINAIR_ASSIGN_OR_RETURN(const std::optional<NamedPicture> picture, pictures.Next());
+/// Reads the next images, at most `count`; none at the end. Errors: another size than `size`, which
+/// the first image sets.
+Result<std::vector<NamedPicture>> ReadPictures(PictureStream& pictures, std::size_t count,
+                                               ImageSize* size) {
+  std::vector<NamedPicture> read;
+  while (read.size() < count) {
+    PLEINAIR_ASSIGN_OR_RETURN(std::optional<NamedPicture> picture, pictures.Next());
     if (!picture) break;
     const ImageSize here{picture->grey.width(), picture->grey.height()};
-    if (!collector) {
-      *size = here;
-      PLEINAIR_ASSIGN_OR_RETURN(collector, MarkerViewCollector::Create(here, options));
-    }
+    if (size->width == 0) *size = here;
     if (here != *size) {
       return InputError(picture->name,
                         fmt::format("has {}x{} pixels, and those before have {}x{}", here.width,
                                     here.height, size->width, size->height),
                         "a calibration is for one size: give images of one camera at one size");
     }
-    PLEINAIR_ASSIGN_OR_RETURN(const bool any, collector->Add(picture->name, picture->grey.view()));
-    ++film->looked_at;
-    film->with_marker += any ? 1 : 0;
-    bar.Advance();
+    read.push_back(*std::move(picture));
+  }
+  return read;
+}
+
+/// Collects the views of all frames.
+Result<MarkerViewCollector> Collect(PictureStream& pictures, const std::string& source,
+                                    const tracker::MarkerViewOptions& options, ImageSize* size,
+                                    FilmLens* film) {
+  const std::size_t at_once = options.consecutive_frames ? 1 : kSearchedAtOnce;
+  std::optional<MarkerViewCollector> collector;
+  ProgressBar bar("Finding markers", pictures.Count(), "images");
+  while (true) {
+    if (InterruptGuard::Interrupted()) return SystemError("", "interrupted", "");
+    PLEINAIR_ASSIGN_OR_RETURN(const std::vector<NamedPicture> read,
+                              ReadPictures(pictures, at_once, size));
+    if (read.empty()) break;
+    if (!collector) {
+      PLEINAIR_ASSIGN_OR_RETURN(collector, MarkerViewCollector::Create(*size, options));
+    }
+    std::vector<tracker::NamedImage> images;
+    for (const NamedPicture& picture : read) {
+      images.push_back({picture.name, picture.grey.view()});
+    }
+    PLEINAIR_ASSIGN_OR_RETURN(const int with_marker, collector->Add(images));
+    film->looked_at += static_cast<int>(read.size());
+    film->with_marker += with_marker;
+    for (std::size_t i = 0; i < read.size(); ++i) bar.Advance();
   }
   if (film->with_marker == 0) {
     return InputError(source, fmt::format("shows no marker in {} images", film->looked_at),

@@ -6,7 +6,9 @@
 #include <cstddef>
 #include <map>
 #include <memory>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "app/calibrate/film_lens.h"
 #include "devices/calibration/fitted_camera.h"
@@ -16,6 +18,7 @@
 #include "files/text_file.h"
 #include "session/light_frames.h"
 #include "session/scene_marker.h"
+#include "tracker/parallel_trackers.h"
 #include "tracker/tracker.h"
 
 namespace pleinair::app {
@@ -24,6 +27,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uintmax_t kMaxPhotoFileBytes = std::uintmax_t{256} << 20;
+/// So many frames are in memory at once, and are searched on all processors.
+constexpr std::size_t kLooksAtOnce = 4;
 
 /// Frames of a file, before any lens is known.
 struct LookedAtFile {
@@ -72,6 +77,23 @@ std::size_t CountOfLooks(ImageSize size, bool is_marker_rare) {
   return is_marker_rare ? kRareFactor * looks : looks;
 }
 
+/// The frames with these indices, which ascend; fewer if the film ends before.
+Result<std::vector<devices::Frame>> ReadFrames(devices::FrameSource& source,
+                                               std::span<const std::size_t> indices) {
+  std::vector<devices::Frame> frames;
+  for (const std::size_t index : indices) {
+    const auto wanted = static_cast<std::int64_t>(index);
+    source.SkipTo(wanted);
+    std::optional<devices::Frame> frame;
+    do {
+      PLEINAIR_ASSIGN_OR_RETURN(frame, source.Next());
+    } while (frame && frame->index < wanted);
+    if (!frame) break;
+    frames.push_back(*std::move(frame));
+  }
+  return frames;
+}
+
 }  // namespace
 
 KnownLens AssumedLens(ImageSize size, const devices::FilmTags& tags, const std::string& file) {
@@ -108,20 +130,19 @@ Result<FilmLook> LookAt(const fs::path& file, const LookOptions& options) {
   tracker::TrackerOptions tracking;
   tracking.families = FamiliesToLookFor(options.family);
   tracking.marker_size_m = 1.0;
-  PLEINAIR_ASSIGN_OR_RETURN(const auto tracker, tracker::Tracker::Create(camera, tracking));
+  PLEINAIR_ASSIGN_OR_RETURN(auto trackers, tracker::ParallelTrackers::Create(camera, tracking));
   look.frames = opened.frames->FrameCount().value_or(1);
-  for (const std::size_t index :
-       session::EvenlySpread(static_cast<std::size_t>(look.frames),
-                             CountOfLooks(opened.size, options.is_marker_rare))) {
-    const auto wanted = static_cast<std::int64_t>(index);
-    opened.frames->SkipTo(wanted);
-    for (;;) {
-      PLEINAIR_ASSIGN_OR_RETURN(const std::optional<devices::Frame> frame, opened.frames->Next());
-      if (!frame) return look;
-      if (frame->index < wanted) continue;
-      PLEINAIR_ASSIGN_OR_RETURN(auto markers, tracker->Track(frame->grey.view()));
-      look.looked_at.push_back({frame->index, std::move(markers)});
-      break;
+  const std::vector<std::size_t> indices = session::EvenlySpread(
+      static_cast<std::size_t>(look.frames), CountOfLooks(opened.size, options.is_marker_rare));
+  for (std::size_t first = 0; first < indices.size(); first += kLooksAtOnce) {
+    const std::size_t count = std::min(kLooksAtOnce, indices.size() - first);
+    PLEINAIR_ASSIGN_OR_RETURN(const std::vector<devices::Frame> frames,
+                              ReadFrames(*opened.frames, std::span(indices).subspan(first, count)));
+    std::vector<ImageView<const std::uint8_t>> greys;
+    for (const devices::Frame& frame : frames) greys.push_back(frame.grey.view());
+    PLEINAIR_ASSIGN_OR_RETURN(auto markers, trackers.Track(greys));
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      look.looked_at.push_back({frames[i].index, std::move(markers[i])});
     }
   }
   return look;

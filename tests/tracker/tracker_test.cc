@@ -5,9 +5,11 @@
 
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "tests/tracker/marker_rendering.h"
 #include "tracker/april_tag_detector.h"
+#include "tracker/parallel_trackers.h"
 
 namespace pleinair::tracker {
 namespace {
@@ -113,6 +115,44 @@ TEST(Tracker, GivesTheSameBytesForTheSamePicture) {
                 (*first)[i].pose.best.camera_from_marker.rotation);
     }
   }
+}
+
+TEST(ParallelTrackers, GiveTheMarkersOfASingleTrackerInTheOrderOfTheImages) {
+  const CameraModel camera = Camera320();
+  std::vector<GreyImage> images;
+  for (int id = 1; id <= 5; ++id) {
+    images.push_back(RenderMarkers(camera, {MarkerAt(camera, id, {60.0 + 30.0 * id, 90}, 60)},
+                                   {.noise_codes = 4.0, .light = {}}));
+  }
+  std::vector<ImageView<const std::uint8_t>> views;
+  for (const GreyImage& image : images) views.push_back(image.view());
+  auto parallel = ParallelTrackers::Create(camera, {.marker_size_m = 0.1});
+  ASSERT_TRUE(parallel);
+  const auto together = parallel->Track(views);
+  const auto found = parallel->Find(views);
+  ASSERT_TRUE(together && found);
+  ASSERT_EQ(together->size(), images.size());
+  ASSERT_EQ(found->size(), images.size());
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    const auto alone = MakeTracker(camera)->Track(views[i]);
+    ASSERT_EQ(alone->size(), 1U) << i;
+    ASSERT_EQ((*together)[i].size(), 1U) << i;
+    EXPECT_EQ((*together)[i][0].detection.id, static_cast<int>(i) + 1);
+    EXPECT_EQ((*together)[i][0].detection.corners_px, (*alone)[0].detection.corners_px);
+    EXPECT_EQ((*together)[i][0].pose.covariance, (*alone)[0].pose.covariance);
+    ASSERT_EQ((*found)[i].candidates.size(), 1U) << i;
+    EXPECT_EQ((*found)[i].candidates[0].detection.id, static_cast<int>(i) + 1);
+  }
+}
+
+TEST(ParallelTrackers, TellTheErrorOfAnImageOfAnotherSize) {
+  const CameraModel camera = Camera320();
+  auto parallel = ParallelTrackers::Create(camera, {.marker_size_m = 0.1});
+  ASSERT_TRUE(parallel);
+  const GreyImage good(320, 200), other(64, 64);
+  const auto tracked = parallel->Track(std::vector{good.view(), other.view(), good.view()});
+  ASSERT_FALSE(tracked);
+  EXPECT_THAT(tracked.error().Message(), HasSubstr("64x64"));
 }
 
 TEST(Tracker, FindsNothingInABlankPicture) {

@@ -51,13 +51,42 @@ Result<MarkerViewCollector> MarkerViewCollector::Create(ImageSize size,
   tracking.families = options.families;
   tracking.marker_size_m = 1.0;  // The lens does not depend on it.
   tracking.consecutive_frames = options.consecutive_frames;
-  PLEINAIR_ASSIGN_OR_RETURN(collector.tracker_, Tracker::Create(OrdinaryLens(size), tracking));
+  const CameraModel lens = OrdinaryLens(size);
+  if (options.consecutive_frames) {
+    PLEINAIR_ASSIGN_OR_RETURN(collector.tracker_, Tracker::Create(lens, tracking));
+  } else {
+    PLEINAIR_ASSIGN_OR_RETURN(collector.trackers_, ParallelTrackers::Create(lens, tracking));
+  }
   return collector;
 }
 
-Result<bool> MarkerViewCollector::Add(const std::string& name, ImageView<const std::uint8_t> grey) {
-  const std::int64_t image = images_++;
-  PLEINAIR_ASSIGN_OR_RETURN(const UnmeasuredMarkers found, tracker_->Find(grey));
+Result<int> MarkerViewCollector::Add(std::span<const NamedImage> images) {
+  PLEINAIR_ASSIGN_OR_RETURN(const std::vector<UnmeasuredMarkers> found, Find(images));
+  int with_marker = 0;
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    with_marker += Take(images[i], found[i]) ? 1 : 0;
+  }
+  return with_marker;
+}
+
+Result<std::vector<UnmeasuredMarkers>> MarkerViewCollector::Find(
+    std::span<const NamedImage> images) {
+  if (trackers_) {
+    std::vector<ImageView<const std::uint8_t>> greys;
+    greys.reserve(images.size());
+    for (const NamedImage& image : images) greys.push_back(image.grey);
+    return trackers_->Find(greys);
+  }
+  std::vector<UnmeasuredMarkers> found;
+  for (const NamedImage& image : images) {
+    PLEINAIR_ASSIGN_OR_RETURN(UnmeasuredMarkers markers, tracker_->Find(image.grey));
+    found.push_back(std::move(markers));
+  }
+  return found;
+}
+
+bool MarkerViewCollector::Take(const NamedImage& image, const UnmeasuredMarkers& found) {
+  const std::int64_t number = images_++;
   bool any = false;
   for (const Candidate& candidate : found.candidates) {
     const MarkerDetection& detection = candidate.detection;
@@ -65,17 +94,17 @@ Result<bool> MarkerViewCollector::Add(const std::string& name, ImageView<const s
     if (which < 0) continue;
     any = true;
     Marker& marker = markers_[static_cast<std::size_t>(which)];
-    const bool followed = marker.last_image == image - 1;
+    const bool followed = marker.last_image == number - 1;
     const bool still = followed && MeanDistance(marker.last_px, detection.corners_px) <=
                                        kStillMarker * size_.width;
     marker.last_px = detection.corners_px;
-    marker.last_image = image;
-    const auto seen = CornersSeen(grey, detection.corners_px);
+    marker.last_image = number;
+    const auto seen = CornersSeen(image.grey, detection.corners_px);
     const bool whole = detection.visible_fraction >= kWhole &&
                        std::all_of(seen.begin(), seen.end(), [](bool corner) { return corner; });
     if (!whole || (options_.consecutive_frames && !still)) continue;
     if (!IsNew(which, detection.corners_px, kept_.size())) continue;
-    Keep(name, which, detection.corners_px, grey);
+    Keep(image.name, which, detection.corners_px, image.grey);
   }
   return any;
 }

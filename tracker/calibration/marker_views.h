@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,7 +15,9 @@
 #include "base/image_size.h"
 #include "tracker/calibration/marker_lens.h"
 #include "tracker/marker_pattern.h"
+#include "tracker/parallel_trackers.h"
 #include "tracker/tracker.h"
+#include "tracker/unmeasured_markers.h"
 
 namespace pleinair::tracker {
 
@@ -24,6 +28,12 @@ struct MarkerViewOptions {
   bool consecutive_frames = true;
 };
 
+/// An image and its name for messages.
+struct NamedImage {
+  std::string name;
+  ImageView<const std::uint8_t> grey;
+};
+
 /// Collects the views of markers from a film, and measures them from all their cells. Views differ
 /// from each other by at least 1 % of the image's width, and by more where there are too many.
 class MarkerViewCollector {
@@ -31,9 +41,10 @@ class MarkerViewCollector {
   /// Errors (input): an unknown family.
   static Result<MarkerViewCollector> Create(ImageSize size, const MarkerViewOptions& options);
 
-  /// Takes an image of the collector's size; `name` is for messages. Returns whether it shows a
-  /// marker. Keeps a cut-out of the image where the marker is seen as a whole, at a new place.
-  Result<bool> Add(const std::string& name, ImageView<const std::uint8_t> grey);
+  /// Takes the next images, which have the collector's size. Returns how many show a marker. Keeps
+  /// a cut-out of each where the marker is seen as a whole, at a new place. Images that do not
+  /// follow each other are searched on all processors.
+  Result<int> Add(std::span<const NamedImage> images);
 
   /// The corners of the collected views, by an alignment of all cells through this lens
   /// (refinement/marker_alignment.h). Views that cannot be aligned are left out. Uses all
@@ -62,6 +73,9 @@ class MarkerViewCollector {
 
   MarkerViewCollector(ImageSize size, const MarkerViewOptions& options)
       : size_(size), options_(options) {}
+  Result<std::vector<UnmeasuredMarkers>> Find(std::span<const NamedImage> images);
+  /// Returns whether the image shows a marker.
+  bool Take(const NamedImage& image, const UnmeasuredMarkers& found);
   /// Index in markers_; -1 for a marker without a known pattern.
   int WhichMarker(const MarkerDetection& detection);
   bool IsNew(int which, const Corners& corners_px, std::size_t among) const;
@@ -70,7 +84,8 @@ class MarkerViewCollector {
 
   ImageSize size_;
   MarkerViewOptions options_;
-  std::unique_ptr<Tracker> tracker_;
+  std::unique_ptr<Tracker> tracker_;            // For consecutive frames,
+  std::optional<ParallelTrackers> trackers_{};  // for others.
   double spacing_px_ = 0.0;
   std::int64_t images_ = 0;
   std::vector<Marker> markers_;
