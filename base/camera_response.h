@@ -44,6 +44,15 @@ class CameraResponse {
   /// Linear light of the 256 pixel values of a channel.
   const std::array<float, 256>& Linear(int channel) const { return linear_[channel]; }
 
+  /// Linear light of a pixel value in 16 bits (65,535 is 255), interpolated between those of 8.
+  float LinearOf16(std::uint16_t value, int channel) const {
+    constexpr int kPerCode = 257;
+    const int code = value / kPerCode, rest = value % kPerCode;
+    const auto& table = linear_[channel];
+    if (rest == 0) return table[code];
+    return table[code] + (table[code + 1] - table[code]) * static_cast<float>(rest) / kPerCode;
+  }
+
   /// Encoded value (0…1) of linear light; clamps to 0…1.
   double Encoded(double light, int channel) const {
     if (is_srgb_) return SrgbFromLinear(light);

@@ -69,7 +69,7 @@ class GlComposer : public Composer {
   Result<void> SetLightMix(const std::vector<LitMesh>& lit, const LightMix& mix) override;
   Result<void> SetAmbient(const std::vector<LitMesh>& lit) override;
   void SetSun(const sky::SkyModel& day, const Mat3& marker_from_world) override;
-  Result<RgbImage> Compose(ImageView<const std::uint8_t> rgb,
+  Result<RgbImage> Compose(CameraImageView image,
                            const Transform<Camera, Marker>& camera_from_marker,
                            LinearRgb exposure_scale) override;
   void SetMarkerMargin(double board_size_m) override { unmodelled_.margin_size_m = board_size_m; }
@@ -359,15 +359,15 @@ Result<void> GlComposer::SkipImage(const Transform<Camera, Marker>& camera_from_
   return {};
 }
 
-Result<RgbImage> GlComposer::Compose(ImageView<const std::uint8_t> rgb,
+Result<RgbImage> GlComposer::Compose(CameraImageView image,
                                      const Transform<Camera, Marker>& camera_from_marker,
                                      LinearRgb exposure_scale) {
-  CHECK_EQ(rgb.width(), camera_.width);
-  CHECK_EQ(rgb.height(), camera_.height);
-  CHECK_EQ(rgb.channels(), 3);
-  CHECK_EQ(rgb.stride(), static_cast<std::ptrdiff_t>(rgb.width()) * 3);
+  CHECK_EQ(image.width(), camera_.width);
+  CHECK_EQ(image.height(), camera_.height);
+  CHECK_EQ(image.rgb().channels(), 3);
+  CHECK_EQ(image.rgb().stride(), static_cast<std::ptrdiff_t>(image.width()) * 3);
   PLEINAIR_RETURN_IF_ERROR(context_.MakeCurrent());
-  canvas_.picture.SetBackground(rgb);
+  PLEINAIR_RETURN_IF_ERROR(canvas_.picture.SetBackground(image));
   PLEINAIR_ASSIGN_OR_RETURN(const shadows::View view, UpdateScene(camera_from_marker));
   const FrameUniforms frame = FrameOf(view, camera_from_marker, exposure_scale);
   PLEINAIR_ASSIGN_OR_RETURN(const SurfacePrograms* programs, ProgramsFor(frame));
@@ -380,7 +380,7 @@ Result<RgbImage> GlComposer::Compose(ImageView<const std::uint8_t> rgb,
   if (options_.show_shadow_maps && light_.HasSun()) {
     PLEINAIR_RETURN_IF_ERROR(DrawDebugView(view));
   }
-  return canvas_.picture.Read(rgb);
+  return canvas_.picture.Read(image.rgb());
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "base/camera_image.h"
 #include "base/camera_model.h"
 #include "base/camera_response.h"
 #include "base/error.h"
@@ -101,7 +102,7 @@ class Composer {
   /// Returns the image with the virtual objects in it. `exposure_scale`: display-linear value per
   /// radiance and channel (ExposureEstimate). Pixels that no virtual object affects keep their
   /// bytes.
-  virtual Result<RgbImage> Compose(ImageView<const std::uint8_t> rgb,
+  virtual Result<RgbImage> Compose(CameraImageView image,
                                    const Transform<Camera, Marker>& camera_from_marker,
                                    LinearRgb exposure_scale) = 0;
 };

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "base/camera_image.h"
 #include "base/image.h"
 #include "devices/images/raw_image.h"
 
@@ -51,9 +52,13 @@ struct Frame {
   int lost_before = 0;  ///< Frames known to be lost between the previous frame and this one.
   FrameLoss loss;       ///< The same losses by cause, if the source reports them.
   RgbImage rgb;         ///< Three channels, sRGB-encoded.
+  DeepImage deep;       ///< The same in 16 bits; empty if the source has no more than 8.
   GreyImage grey;       ///< One channel, sRGB-encoded; input of the tracker.
   /// The bytes that the camera sent, for recorders; null for files.
   std::shared_ptr<const RawImage> raw;
 };
+
+/// The frame's image, at its source's depth.
+inline CameraImageView ImageOf(const Frame& frame) { return {frame.rgb.view(), frame.deep.view()}; }
 
 }  // namespace pleinair::devices

@@ -257,7 +257,7 @@ void BackgroundLight::EstimateLight(const Shown& shown, const Wanted& wanted) {
         setup_.camera, wanted.marker_reflectance, setup_.scene, setup_.light.overrides, shown.time,
         setup_.response);
   }
-  known_.estimator->Add(shown.frame->rgb.view(), shown.camera_from_marker);
+  known_.estimator->Add(devices::ImageOf(*shown.frame), shown.camera_from_marker);
   {
     const std::lock_guard lock(mutex_);
     shared_.progress.frames_in_estimate = known_.estimator->frames();

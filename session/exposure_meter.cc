@@ -17,7 +17,7 @@ LinearRgb WithDoubt(LinearRgb error, LinearRgb marker_shade) {
 
 }  // namespace
 
-void ExposureMeter::Read(ImageView<const std::uint8_t> rgb, const CameraModel& camera,
+void ExposureMeter::Read(CameraImageView image, const CameraModel& camera,
                          const std::optional<Transform<Camera, Marker>>& camera_from_marker,
                          LinearRgb marker_shade, const FollowedLight& followed,
                          LightSummary* summary) {
@@ -28,7 +28,7 @@ void ExposureMeter::Read(ImageView<const std::uint8_t> rgb, const CameraModel& c
   }
   is_used_ = true;
   const auto estimate = meter_ && camera_from_marker
-                            ? meter_->Measure(rgb, camera, *camera_from_marker)
+                            ? meter_->Measure(image, camera, *camera_from_marker)
                             : std::nullopt;
   if (estimate) {
     filter_.Add(estimate->exposure_scale * marker_shade / followed.marker_light, estimate->error);

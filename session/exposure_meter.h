@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/camera_image.h"
 #include "base/camera_model.h"
 #include "base/frames.h"
 #include "base/image.h"
@@ -36,7 +37,7 @@ class ExposureMeter {
   /// Measures a frame and writes the result to `summary`. `marker_shade`: SkyState::marker_shade.
   /// `camera_from_marker`: nothing where the frame
   /// does not show the marker. `followed`: how the frame's light differs from the meter's.
-  void Read(ImageView<const std::uint8_t> rgb, const CameraModel& camera,
+  void Read(CameraImageView image, const CameraModel& camera,
             const std::optional<Transform<Camera, Marker>>& camera_from_marker,
             LinearRgb marker_shade, const FollowedLight& followed, LightSummary* summary);
 

@@ -14,10 +14,10 @@ constexpr double kLargest = 0.9;
 
 }  // namespace
 
-void LightFollower::Add(ImageView<const std::uint8_t> rgb, const Transform<Camera, Marker>& pose,
+void LightFollower::Add(CameraImageView image, const Transform<Camera, Marker>& pose,
                         const scene::MarkerReflectance& marker, std::int64_t frame_index,
                         std::int64_t timestamp_ns) {
-  probes_.AddFrame(rgb, pose, marker, frame_index, timestamp_ns);
+  probes_.AddFrame(image, pose, marker, frame_index, timestamp_ns);
 }
 
 void LightFollower::Fit(const sky::SkyModel& day, const Mat3& marker_from_world,

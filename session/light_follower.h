@@ -5,6 +5,7 @@
 #include <set>
 #include <vector>
 
+#include "base/camera_image.h"
 #include "base/camera_model.h"
 #include "base/camera_response.h"
 #include "base/frames.h"
@@ -42,7 +43,7 @@ class LightFollower {
       : phantoms_(phantoms), probes_(phantoms, camera, response) {}
 
   /// Adds a frame; frames must come in order.
-  void Add(ImageView<const std::uint8_t> rgb, const Transform<Camera, Marker>& pose,
+  void Add(CameraImageView image, const Transform<Camera, Marker>& pose,
            const scene::MarkerReflectance& marker, std::int64_t frame_index,
            std::int64_t timestamp_ns);
 

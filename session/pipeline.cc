@@ -57,8 +57,11 @@ Result<ComposedFrame> Pipeline::Process(const devices::Frame& frame) {
   PLEINAIR_ASSIGN_OR_RETURN(const TrackedFrame tracked, Track(frame));
   const std::optional<CameraPose> pose = FollowIn(frame);
   const UtcTime time = MomentOf(frame.timestamp_ns);
-  if (HasOutputSize(frame)) return Compose(frame.rgb.view(), pose, time);
-  return Compose(Resized(frame).view(), pose, time);
+  if (HasOutputSize(frame)) return Compose(devices::ImageOf(frame), pose, time);
+  RgbImage rgb;
+  DeepImage deep;
+  ResizeInto(frame, &rgb, &deep);
+  return Compose({rgb.view(), std::as_const(deep).view()}, pose, time);
 }
 
 Result<TrackedFrame> Pipeline::Track(const devices::Frame& frame) {
@@ -104,8 +107,8 @@ void Pipeline::ProbeLight(const devices::Frame& last_tracked) {
   if (!renderer_->DrawsObjects()) return;
   const std::optional<CameraPose> pose = PoseIn(last_tracked);
   if (!pose) return;
-  const ImageView<const std::uint8_t> rgb = last_tracked.rgb.view();
-  renderer_->ProbeLight(rgb, ScaleCamera(output_camera_, {rgb.width(), rgb.height()}),
+  const CameraImageView image = devices::ImageOf(last_tracked);
+  renderer_->ProbeLight(image, ScaleCamera(output_camera_, {image.width(), image.height()}),
                         pose->observation.camera_from_marker, last_tracked.index,
                         last_tracked.timestamp_ns,
                         MarkerReflectanceOf(scene_.marker, pose->marker));
@@ -172,11 +175,13 @@ bool Pipeline::HasOutputSize(const devices::Frame& frame) const {
 }
 
 void Pipeline::Resize(devices::Frame* frame) const {
-  if (!HasOutputSize(*frame)) frame->rgb = Resized(*frame);
+  if (!HasOutputSize(*frame)) ResizeInto(*frame, &frame->rgb, &frame->deep);
 }
 
-RgbImage Pipeline::Resized(const devices::Frame& frame) const {
-  return devices::ResizeRgb(frame.rgb.view(), output_camera_.width, output_camera_.height);
+void Pipeline::ResizeInto(const devices::Frame& frame, RgbImage* rgb, DeepImage* deep) const {
+  const int width = output_camera_.width, height = output_camera_.height;
+  *rgb = devices::ResizeRgb(frame.rgb.view(), width, height);
+  *deep = frame.deep.empty() ? DeepImage() : devices::ResizeDeep(frame.deep.view(), width, height);
 }
 
 bool Pipeline::MeterLightOn(const MarkerName& marker) {
@@ -186,18 +191,18 @@ bool Pipeline::MeterLightOn(const MarkerName& marker) {
   return true;
 }
 
-Result<ComposedFrame> Pipeline::Compose(ImageView<const std::uint8_t> rgb,
+Result<ComposedFrame> Pipeline::Compose(CameraImageView image,
                                         const std::optional<CameraPose>& pose, UtcTime time) {
-  return Compose(rgb, pose, time, pose ? FollowedIn(pose->observation) : FollowedLight{});
+  return Compose(image, pose, time, pose ? FollowedIn(pose->observation) : FollowedLight{});
 }
 
-Result<ComposedFrame> Pipeline::Compose(ImageView<const std::uint8_t> rgb,
+Result<ComposedFrame> Pipeline::Compose(CameraImageView image,
                                         const std::optional<CameraPose>& pose, UtcTime time,
                                         const FollowedLight& followed) {
   ComposedFrame composed;
   composed.pose = pose;
   if (!pose) {
-    composed.image = CopyImage(rgb);
+    composed.image = CopyImage(image.rgb());
     return composed;
   }
   MeterLightOn(pose->marker);
@@ -205,7 +210,7 @@ Result<ComposedFrame> Pipeline::Compose(ImageView<const std::uint8_t> rgb,
   compositor::MarkerVisibility visibility;
   if (hands_in_front_) visibility = VisibilityOf(scene_.marker, pose->marker, seen);
   PLEINAIR_ASSIGN_OR_RETURN(
-      composed.image, renderer_->Render(rgb, seen.camera_from_marker, time, visibility, followed,
+      composed.image, renderer_->Render(image, seen.camera_from_marker, time, visibility, followed,
                                         ShowsReferenceMarker(seen)));
   if (!renderer_->DrawsObjects()) return composed;
   composed.light = renderer_->light();
@@ -213,15 +218,15 @@ Result<ComposedFrame> Pipeline::Compose(ImageView<const std::uint8_t> rgb,
   return composed;
 }
 
-Result<ComposedFrame> Pipeline::Advance(ImageView<const std::uint8_t> rgb,
+Result<ComposedFrame> Pipeline::Advance(CameraImageView image,
                                         const std::optional<CameraPose>& pose, UtcTime time) {
   ComposedFrame advanced;
   advanced.pose = pose;
   if (!pose) return advanced;
   MeterLightOn(pose->marker);
   const Observation& seen = pose->observation;
-  PLEINAIR_RETURN_IF_ERROR(renderer_->Advance(rgb, seen.camera_from_marker, time, FollowedIn(seen),
-                                              ShowsReferenceMarker(seen)));
+  PLEINAIR_RETURN_IF_ERROR(renderer_->Advance(image, seen.camera_from_marker, time,
+                                              FollowedIn(seen), ShowsReferenceMarker(seen)));
   if (!renderer_->DrawsObjects()) return advanced;
   advanced.light = renderer_->light();
   advanced.times = renderer_->times();

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/camera_image.h"
 #include "base/camera_model.h"
 #include "base/error.h"
 #include "base/image.h"
@@ -152,17 +153,16 @@ class Pipeline {
 
   /// Draws the objects with the light of `time` into an image of the size of composed images.
   /// Errors: no memory on the graphics card.
-  Result<ComposedFrame> Compose(ImageView<const std::uint8_t> rgb,
-                                const std::optional<CameraPose>& pose, UtcTime time);
+  Result<ComposedFrame> Compose(CameraImageView image, const std::optional<CameraPose>& pose,
+                                UtcTime time);
   /// The same. `followed`: how the frame's light differs from the estimated one, by a live session.
-  Result<ComposedFrame> Compose(ImageView<const std::uint8_t> rgb,
-                                const std::optional<CameraPose>& pose, UtcTime time,
-                                const FollowedLight& followed);
+  Result<ComposedFrame> Compose(CameraImageView image, const std::optional<CameraPose>& pose,
+                                UtcTime time, const FollowedLight& followed);
 
   /// Updates all that Compose() carries to later frames, and draws nothing: the result has no
   /// image. For frames that were composed before.
-  Result<ComposedFrame> Advance(ImageView<const std::uint8_t> rgb,
-                                const std::optional<CameraPose>& pose, UtcTime time);
+  Result<ComposedFrame> Advance(CameraImageView image, const std::optional<CameraPose>& pose,
+                                UtcTime time);
 
   /// Time at which a frame of a recording was taken: the start time of the scene plus the time
   /// stamp, nanoseconds since the start of the recording.
@@ -184,7 +184,8 @@ class Pipeline {
            const PipelineOptions& options);
   void AddToTracks(const devices::Frame& frame,
                    const std::vector<tracker::MarkerObservation>& observations);
-  RgbImage Resized(const devices::Frame& frame) const;
+  /// `rgb` and `deep` may be those of the frame.
+  void ResizeInto(const devices::Frame& frame, RgbImage* rgb, DeepImage* deep) const;
   /// Collects what a frame of a recording's first pass tells of its light.
   void ProbeLight(const devices::Frame& last_tracked);
   /// How the light of a frame differs from the estimated one.

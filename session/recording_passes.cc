@@ -210,7 +210,7 @@ Result<void> EstimateLight(Pipeline& pipeline, devices::Recording recording,
     ++done;
     Resize(pipeline, &*frame, &pass.times());
     pass.times().Measure("observe light", [&] {
-      pipeline.renderer().ObserveLight(frame->rgb.view(), at.camera_from_marker,
+      pipeline.renderer().ObserveLight(devices::ImageOf(*frame), at.camera_from_marker,
                                        pipeline.MomentOf(frame->timestamp_ns),
                                        ShowsReferenceMarker(at));
       return 0;
@@ -251,8 +251,8 @@ Result<void> ComposeFrames(Pipeline& pipeline, devices::Recording recording,
     std::optional<RgbImage> image = earlier ? earlier(frame->index) : std::nullopt;
     const UtcTime moment = pipeline.MomentOf(frame->timestamp_ns);
     PLEINAIR_ASSIGN_OR_RETURN(ComposedFrame composed,
-                              image ? pipeline.Advance(frame->rgb.view(), pose, moment)
-                                    : pipeline.Compose(frame->rgb.view(), pose, moment));
+                              image ? pipeline.Advance(devices::ImageOf(*frame), pose, moment)
+                                    : pipeline.Compose(devices::ImageOf(*frame), pose, moment));
     if (image) composed.image = *std::move(image);
     AddTimes(composed, &pass.times());
     PLEINAIR_RETURN_IF_ERROR(take(*frame, std::move(composed)));

@@ -25,7 +25,7 @@ SceneLight::SceneLight(std::shared_ptr<const compositor::LightSolver> solver,
   skies_.source = compositor::DescribedSky(scene);
 }
 
-void SceneLight::Observe(ImageView<const std::uint8_t> rgb, const CameraModel& camera,
+void SceneLight::Observe(CameraImageView image, const CameraModel& camera,
                          const Transform<Camera, Marker>& camera_from_marker, UtcTime time,
                          const scene::SceneDescription& scene,
                          const scene::MarkerReflectance& marker_reflectance,
@@ -35,7 +35,7 @@ void SceneLight::Observe(ImageView<const std::uint8_t> rgb, const CameraModel& c
         std::shared_ptr<const compositor::PhantomRays>(solver_, &solver_->phantoms()), camera,
         marker_reflectance, scene, options_.overrides, time, response);
   }
-  estimator_->Add(rgb, camera_from_marker, shows_marker);
+  estimator_->Add(image, camera_from_marker, shows_marker);
 }
 
 std::optional<SceneLight::Conclusion> SceneLight::Conclude(const std::set<int>& uncolored) {
@@ -59,7 +59,7 @@ Result<void> SceneLight::UseModels(const std::vector<compositor::PlacedModel>& p
   return {};
 }
 
-void SceneLight::Probe(ImageView<const std::uint8_t> rgb, const CameraModel& camera,
+void SceneLight::Probe(CameraImageView image, const CameraModel& camera,
                        const Transform<Camera, Marker>& camera_from_marker,
                        std::int64_t frame_index, std::int64_t timestamp_ns,
                        const scene::MarkerReflectance& marker_reflectance,
@@ -68,7 +68,7 @@ void SceneLight::Probe(ImageView<const std::uint8_t> rgb, const CameraModel& cam
     probed_ = solver_;
     follower_.emplace(probed_->phantoms(), camera, response);
   }
-  follower_->Add(rgb, camera_from_marker, marker_reflectance, frame_index, timestamp_ns);
+  follower_->Add(image, camera_from_marker, marker_reflectance, frame_index, timestamp_ns);
 }
 
 void SceneLight::Follow(const scene::SceneDescription& scene, UtcTime time,

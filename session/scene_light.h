@@ -7,6 +7,7 @@
 #include <set>
 #include <vector>
 
+#include "base/camera_image.h"
 #include "base/camera_model.h"
 #include "base/camera_response.h"
 #include "base/error.h"
@@ -43,7 +44,7 @@ class SceneLight {
 
   /// Adds a frame to the estimate of the light. All frames of an estimate share one position of the
   /// sun: that at `time` of the first. `scene` has the described or overriding heading.
-  void Observe(ImageView<const std::uint8_t> rgb, const CameraModel& camera,
+  void Observe(CameraImageView image, const CameraModel& camera,
                const Transform<Camera, Marker>& camera_from_marker, UtcTime time,
                const scene::SceneDescription& scene,
                const scene::MarkerReflectance& marker_reflectance, const CameraResponse& response,
@@ -65,7 +66,7 @@ class SceneLight {
 
   /// Adds a frame of the recording's first pass, in order, so that its light can be followed.
   /// `camera`: the lens of these frames.
-  void Probe(ImageView<const std::uint8_t> rgb, const CameraModel& camera,
+  void Probe(CameraImageView image, const CameraModel& camera,
              const Transform<Camera, Marker>& camera_from_marker, std::int64_t frame_index,
              std::int64_t timestamp_ns, const scene::MarkerReflectance& marker_reflectance,
              const CameraResponse& response);

@@ -141,19 +141,19 @@ void SceneRenderer::SetMarkerReflectance(const scene::MarkerReflectance& marker_
 
 bool SceneRenderer::CanMeasureLight() const { return composer_ && !scene_.phantoms.empty(); }
 
-void SceneRenderer::ObserveLight(ImageView<const std::uint8_t> rgb,
+void SceneRenderer::ObserveLight(CameraImageView image,
                                  const Transform<Camera, Marker>& camera_from_marker, UtcTime time,
                                  bool shows_marker) {
-  light_->Observe(rgb, camera_, camera_from_marker, time, scene_, marker_reflectance_, response_,
+  light_->Observe(image, camera_, camera_from_marker, time, scene_, marker_reflectance_, response_,
                   shows_marker);
 }
 
-void SceneRenderer::ProbeLight(ImageView<const std::uint8_t> rgb, const CameraModel& camera,
+void SceneRenderer::ProbeLight(CameraImageView image, const CameraModel& camera,
                                const Transform<Camera, Marker>& camera_from_marker,
                                std::int64_t frame_index, std::int64_t timestamp_ns,
                                const scene::MarkerReflectance& marker_reflectance) {
   if (!light_) return;
-  light_->Probe(rgb, camera, camera_from_marker, frame_index, timestamp_ns, marker_reflectance,
+  light_->Probe(image, camera, camera_from_marker, frame_index, timestamp_ns, marker_reflectance,
                 response_);
 }
 
@@ -303,7 +303,7 @@ Result<void> SceneRenderer::UpdateLight(UtcTime time) {
   return {};
 }
 
-void SceneRenderer::UpdateExposureScale(ImageView<const std::uint8_t> rgb,
+void SceneRenderer::UpdateExposureScale(CameraImageView image,
                                         const std::optional<Transform<Camera, Marker>>& marker,
                                         const FollowedLight& followed) {
   if (scene_.exposure_scale) {
@@ -311,7 +311,7 @@ void SceneRenderer::UpdateExposureScale(ImageView<const std::uint8_t> rgb,
     summary_.exposure_scale = *scene_.exposure_scale * followed.exposure;
     return;
   }
-  exposure_.Read(rgb, camera_, marker, light_->skies().marker_shade, followed, &summary_);
+  exposure_.Read(image, camera_, marker, light_->skies().marker_shade, followed, &summary_);
 }
 
 void SceneRenderer::SummarizeLight(const FollowedLight& followed) {
@@ -324,16 +324,17 @@ void SceneRenderer::SummarizeLight(const FollowedLight& followed) {
   summary_.frame.sky_on_white = baked.daylight.SkyHorizontalIrradiance() * followed.mix.sky * white;
 }
 
-Result<void> SceneRenderer::UpdateCameraLook(ImageView<const std::uint8_t> rgb,
+Result<void> SceneRenderer::UpdateCameraLook(CameraImageView image,
                                              const Transform<Camera, Marker>& camera_from_marker) {
   if (!look_) return {};
-  const auto look = look_->Update(rgb, camera_, camera_from_marker, marker_reflectance_, response_);
+  const auto look =
+      look_->Update(image.rgb(), camera_, camera_from_marker, marker_reflectance_, response_);
   if (!look) return {};
   summary_.look = look;
   return composer_->SetCameraLook(look);
 }
 
-Result<void> SceneRenderer::Follow(ImageView<const std::uint8_t> rgb,
+Result<void> SceneRenderer::Follow(CameraImageView image,
                                    const Transform<Camera, Marker>& camera_from_marker,
                                    UtcTime time, const FollowedLight& followed, bool shows_marker) {
   times_ = {};
@@ -351,31 +352,32 @@ Result<void> SceneRenderer::Follow(ImageView<const std::uint8_t> rgb,
   start = Clock::now();
   std::optional<Transform<Camera, Marker>> marker;
   if (shows_marker) marker = camera_from_marker;
-  UpdateExposureScale(rgb, marker, followed);
-  if (marker) PLEINAIR_RETURN_IF_ERROR(UpdateCameraLook(rgb, *marker));
+  UpdateExposureScale(image, marker, followed);
+  if (marker) PLEINAIR_RETURN_IF_ERROR(UpdateCameraLook(image, *marker));
   SummarizeLight(followed);
   times_.meter_ms = MillisecondsSince(start);
   return {};
 }
 
-Result<void> SceneRenderer::Advance(ImageView<const std::uint8_t> rgb,
+Result<void> SceneRenderer::Advance(CameraImageView image,
                                     const Transform<Camera, Marker>& camera_from_marker,
                                     UtcTime time, const FollowedLight& followed,
                                     bool shows_marker) {
-  PLEINAIR_RETURN_IF_ERROR(Follow(rgb, camera_from_marker, time, followed, shows_marker));
+  PLEINAIR_RETURN_IF_ERROR(Follow(image, camera_from_marker, time, followed, shows_marker));
   return composer_ ? composer_->SkipImage(camera_from_marker) : Result<void>();
 }
 
-Result<RgbImage> SceneRenderer::Render(ImageView<const std::uint8_t> rgb,
+Result<RgbImage> SceneRenderer::Render(CameraImageView image,
                                        const Transform<Camera, Marker>& camera_from_marker,
                                        UtcTime time, const compositor::MarkerVisibility& cover,
                                        const FollowedLight& followed, bool shows_marker) {
-  PLEINAIR_RETURN_IF_ERROR(Follow(rgb, camera_from_marker, time, followed, shows_marker));
-  if (!composer_) return CopyImage(rgb);
+  PLEINAIR_RETURN_IF_ERROR(Follow(image, camera_from_marker, time, followed, shows_marker));
+  if (!composer_) return CopyImage(image.rgb());
   const auto start = Clock::now();
   PLEINAIR_ASSIGN_OR_RETURN(RgbImage composed,
-                            composer_->Compose(rgb, camera_from_marker, summary_.exposure_scale));
-  compositor::PutInFront(rgb, compositor::MaskOccluder(rgb, camera_, camera_from_marker, cover),
+                            composer_->Compose(image, camera_from_marker, summary_.exposure_scale));
+  compositor::PutInFront(image.rgb(),
+                         compositor::MaskOccluder(image.rgb(), camera_, camera_from_marker, cover),
                          &composed);
   times_.compose_ms = MillisecondsSince(start);
   return composed;

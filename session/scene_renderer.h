@@ -7,6 +7,7 @@
 #include <set>
 #include <vector>
 
+#include "base/camera_image.h"
 #include "base/camera_model.h"
 #include "base/camera_response.h"
 #include "base/error.h"
@@ -59,13 +60,12 @@ class SceneRenderer {
   /// Adds a frame to the light estimate, before the first frame is rendered. All these frames share
   /// one sun position: that at `time` of the first. `shows_marker`: false where the marker is not
   /// seen in the frame.
-  void ObserveLight(ImageView<const std::uint8_t> rgb,
-                    const Transform<Camera, Marker>& camera_from_marker, UtcTime time,
-                    bool shows_marker = true);
+  void ObserveLight(CameraImageView image, const Transform<Camera, Marker>& camera_from_marker,
+                    UtcTime time, bool shows_marker = true);
 
   /// Adds a frame of the recording's first pass, in order, so that its light can be followed.
   /// `camera`: the lens of these frames.
-  void ProbeLight(ImageView<const std::uint8_t> rgb, const CameraModel& camera,
+  void ProbeLight(CameraImageView image, const CameraModel& camera,
                   const Transform<Camera, Marker>& camera_from_marker, std::int64_t frame_index,
                   std::int64_t timestamp_ns, const scene::MarkerReflectance& marker_reflectance);
   /// As SceneLight::Follow(), for all further frames.
@@ -125,16 +125,15 @@ class SceneRenderer {
   /// marker, by `cover`, are in front of the virtual objects. `followed`: how the frame's light
   /// differs from the estimated one. `shows_marker`: false where the marker is not seen in the
   /// frame, so that exposure and camera look stay.
-  Result<RgbImage> Render(ImageView<const std::uint8_t> rgb,
+  Result<RgbImage> Render(CameraImageView image,
                           const Transform<Camera, Marker>& camera_from_marker, UtcTime time,
                           const compositor::MarkerVisibility& cover = {},
                           const FollowedLight& followed = {}, bool shows_marker = true);
 
   /// Updates all that Render() carries to later frames, and draws nothing. Later images have the
   /// same bytes as after Render().
-  Result<void> Advance(ImageView<const std::uint8_t> rgb,
-                       const Transform<Camera, Marker>& camera_from_marker, UtcTime time,
-                       const FollowedLight& followed = {}, bool shows_marker = true);
+  Result<void> Advance(CameraImageView image, const Transform<Camera, Marker>& camera_from_marker,
+                       UtcTime time, const FollowedLight& followed = {}, bool shows_marker = true);
 
   const LightSummary& light() const { return summary_; }
   /// Times of the last Render() or Advance().
@@ -157,12 +156,11 @@ class SceneRenderer {
   Result<void> UpdateLight(UtcTime time);
   void SummarizeLight(const FollowedLight& followed);
   /// Brings light, animations, exposure and camera look to a frame.
-  Result<void> Follow(ImageView<const std::uint8_t> rgb,
-                      const Transform<Camera, Marker>& camera_from_marker, UtcTime time,
-                      const FollowedLight& followed, bool shows_marker);
-  Result<void> UpdateCameraLook(ImageView<const std::uint8_t> rgb,
+  Result<void> Follow(CameraImageView image, const Transform<Camera, Marker>& camera_from_marker,
+                      UtcTime time, const FollowedLight& followed, bool shows_marker);
+  Result<void> UpdateCameraLook(CameraImageView image,
                                 const Transform<Camera, Marker>& camera_from_marker);
-  void UpdateExposureScale(ImageView<const std::uint8_t> rgb,
+  void UpdateExposureScale(CameraImageView image,
                            const std::optional<Transform<Camera, Marker>>& marker,
                            const FollowedLight& followed);
 

@@ -182,9 +182,9 @@ Result<std::optional<DrawnFrame>> LiveSession::DrawOne(Tracked tracked) {
       scene_.Show(tracked.frame, *drawn.camera_from_marker, moment);
     }
   }
-  PLEINAIR_ASSIGN_OR_RETURN(
-      session::ComposedFrame composed,
-      pipeline_->Compose(frame.rgb.view(), tracked.pose, moment, scene_.FollowedIn(frame.index)));
+  PLEINAIR_ASSIGN_OR_RETURN(session::ComposedFrame composed,
+                            pipeline_->Compose(devices::ImageOf(frame), tracked.pose, moment,
+                                               scene_.FollowedIn(frame.index)));
   drawn.picture = std::move(composed.image);
   drawn.light = renderer.light();
   if (composed.light) {

@@ -87,18 +87,18 @@ LightEstimator::LightEstimator(std::shared_ptr<const PhantomRays> phantoms,
       meter_(marker_reflectance, *phantoms_, *day_, scene::MarkerFromWorld(scene.marker),
              response) {}
 
-void LightEstimator::Add(ImageView<const std::uint8_t> rgb,
-                         const Transform<Camera, Marker>& camera_from_marker, bool shows_marker) {
+void LightEstimator::Add(CameraImageView image, const Transform<Camera, Marker>& camera_from_marker,
+                         bool shows_marker) {
   const auto estimate =
-      shows_marker ? meter_.Measure(rgb, camera_, camera_from_marker) : std::nullopt;
+      shows_marker ? meter_.Measure(image, camera_, camera_from_marker) : std::nullopt;
   if (estimate) {
     exposure_scale_ = estimate->exposure_scale;
     dappled_ += estimate->dappled ? 1 : 0;
     // Leaves sometimes make two levels, but neither is direct sunlight.
-    const auto shadow = meter_.FindShadow(rgb, camera_, camera_from_marker);
+    const auto shadow = meter_.FindShadow(image, camera_, camera_from_marker);
     if (shadow && !estimate->dappled) marker_shadow_edges_.push_back(*shadow);
   }
-  samples_.AddFrame(rgb, camera_from_marker, exposure_scale_, shows_marker);
+  samples_.AddFrame(image, camera_from_marker, exposure_scale_, shows_marker);
 }
 
 std::map<int, SurfaceColor> LightEstimator::MeasureColors(

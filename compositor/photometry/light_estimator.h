@@ -6,6 +6,7 @@
 #include <set>
 #include <vector>
 
+#include "base/camera_image.h"
 #include "base/camera_model.h"
 #include "base/camera_response.h"
 #include "base/image.h"
@@ -37,7 +38,7 @@ class LightEstimator {
 
   /// `shows_marker`: false where the marker is not seen in the frame, so that nothing is measured
   /// on it.
-  void Add(ImageView<const std::uint8_t> rgb, const Transform<Camera, Marker>& camera_from_marker,
+  void Add(CameraImageView image, const Transform<Camera, Marker>& camera_from_marker,
            bool shows_marker = true);
   int frames() const { return samples_.frames(); }
 

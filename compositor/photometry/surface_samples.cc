@@ -45,16 +45,15 @@ bool SurfaceSamples::IsOnMargin(Point<Marker> point) const {
          std::fabs(point.xyz.z) < half / 4;
 }
 
-bool SurfaceSamples::Observe(ImageView<const std::uint8_t> rgb,
-                             const Transform<Camera, Marker>& pose, LinearRgb exposure_scale,
-                             SurfaceSample* sample, Vec2* pixel) const {
+bool SurfaceSamples::Observe(CameraImageView image, const Transform<Camera, Marker>& pose,
+                             LinearRgb exposure_scale, SurfaceSample* sample, Vec2* pixel) const {
   const Point<Camera> in_camera = pose * sample->point;
   const Vec3 eye = pose.Inverse().translation_m;
   const Vec3 to_eye = eye - sample->point.xyz;
   const double distance = Norm(to_eye);
   if (in_camera.xyz.z <= 0.0 || Dot(sample->normal, to_eye) < 0.1 * distance) return false;
   *pixel = ProjectToPixel(camera_, in_camera);
-  const auto linear = SampleLinear(rgb, *pixel, response_);
+  const auto linear = SampleLinear(image, *pixel, response_);
   if (!linear) return false;
   const auto seen = phantoms_.First({eye}, to_eye * (-1.0 / distance));
   if (seen && Norm(seen->point.xyz - eye) < distance - 3 * sample->footprint_m - 0.01) return false;
@@ -118,13 +117,12 @@ void SurfaceSamples::AddMarker(double distance_m) {
   }
 }
 
-void SurfaceSamples::AddFrame(ImageView<const std::uint8_t> rgb,
-                              const Transform<Camera, Marker>& pose, LinearRgb exposure_scale,
-                              bool shows_marker) {
-  const int step = std::max(2, static_cast<int>(std::sqrt(static_cast<double>(rgb.width()) *
-                                                          rgb.height() / kSamplesPerFrame)));
+void SurfaceSamples::AddFrame(CameraImageView image, const Transform<Camera, Marker>& pose,
+                              LinearRgb exposure_scale, bool shows_marker) {
+  const int step = std::max(2, static_cast<int>(std::sqrt(static_cast<double>(image.width()) *
+                                                          image.height() / kSamplesPerFrame)));
   if (frames_++ == 0 && shows_marker) AddMarker(Norm(pose.translation_m));
-  const int columns = rgb.width() / step, rows = rgb.height() / step;
+  const int columns = image.width() / step, rows = image.height() / step;
   std::vector<std::uint8_t> taken(static_cast<std::size_t>(columns) * rows);
   const auto take = [&](Vec2 pixel) {
     const int x = static_cast<int>(pixel.x) / step, y = static_cast<int>(pixel.y) / step;
@@ -132,7 +130,7 @@ void SurfaceSamples::AddFrame(ImageView<const std::uint8_t> rgb,
   };
   Vec2 pixel;
   for (SurfaceSample& sample : samples_) {
-    if (Observe(rgb, pose, exposure_scale, &sample, &pixel)) take(pixel);
+    if (Observe(image, pose, exposure_scale, &sample, &pixel)) take(pixel);
   }
   const auto marker_from_camera = pose.Inverse();
   const Point<Marker> eye{marker_from_camera.translation_m};
@@ -146,7 +144,7 @@ void SurfaceSamples::AddFrame(ImageView<const std::uint8_t> rgb,
       const auto seen = phantoms_.First(eye, direction);
       if (!seen || seen->is_foliage || IsOnMargin(seen->point)) continue;
       AddSurfaceSample(*seen, Norm(seen->point.xyz - eye.xyz));
-      Observe(rgb, pose, exposure_scale, &samples_.back(), &pixel);
+      Observe(image, pose, exposure_scale, &samples_.back(), &pixel);
     }
   }
 }

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/camera_image.h"
 #include "base/camera_model.h"
 #include "base/camera_response.h"
 #include "base/frames.h"
@@ -48,7 +49,7 @@ class SurfaceSamples {
 
   /// `exposure_scale` is the camera's in this frame. Only its change between frames matters. The
   /// first frame decides whether the marker's white counts as a surface: `shows_marker`.
-  void AddFrame(ImageView<const std::uint8_t> rgb, const Transform<Camera, Marker>& pose,
+  void AddFrame(CameraImageView image, const Transform<Camera, Marker>& pose,
                 LinearRgb exposure_scale, bool shows_marker = true);
 
   const std::vector<SurfaceSample>& samples() const { return samples_; }
@@ -60,7 +61,7 @@ class SurfaceSamples {
   using CellKey = std::array<int, 8>;
 
   /// Returns true if the frame shows the sample at `pixel`, and adds its brightness.
-  bool Observe(ImageView<const std::uint8_t> rgb, const Transform<Camera, Marker>& pose,
+  bool Observe(CameraImageView image, const Transform<Camera, Marker>& pose,
                LinearRgb exposure_scale, SurfaceSample* sample, Vec2* pixel) const;
   void AddSurfaceSample(const PhantomSurface& surface, double distance_m);
   void AddMarker(double distance_m);

@@ -23,6 +23,8 @@ constexpr double kOwnBlurPx = 0.29, kWarpedBlurPx = 0.33;
 constexpr double kMinBlur_px = 0.3, kMinNoiseSteps = 2.0;
 constexpr double kMaxBlur_px = 12.0;
 constexpr int kGrainSide = 256, kPixelValueTableSize = 4096;
+// Sixteen steps for each step of 8 bits.
+constexpr int kLightTableSize = 16 * 255 + 1;
 // Reach of a sample beside its position. The farther texel of a position on a border has no weight.
 constexpr float kInterpolation_px = 0.49F;
 
@@ -92,8 +94,11 @@ Result<CameraPicture> CameraPicture::Create(const CameraModel& camera, const Ren
 
 Result<void> CameraPicture::CreateResponseTables() {
   std::array<std::vector<float>, 2> tables;
-  for (int code = 0; code < 256; ++code) {
-    for (int c = 0; c < 3; ++c) tables[0].push_back(response_.curve.Linear(c)[code]);
+  for (int i = 0; i < kLightTableSize; ++i) {
+    const int value = (i * 0xFFFF + (kLightTableSize - 1) / 2) / (kLightTableSize - 1);
+    for (int c = 0; c < 3; ++c) {
+      tables[0].push_back(response_.curve.LinearOf16(static_cast<std::uint16_t>(value), c));
+    }
   }
   for (int i = 0; i < kPixelValueTableSize; ++i) {
     const double root = static_cast<double>(i) / (kPixelValueTableSize - 1);
@@ -102,7 +107,7 @@ Result<void> CameraPicture::CreateResponseTables() {
     }
   }
   PLEINAIR_ASSIGN_OR_RETURN(response_.light_of_pixel_value,
-                            gl::GlTexture::Create2D(GL_RGB32F, 256, 1));
+                            gl::GlTexture::Create2D(GL_RGB32F, kLightTableSize, 1));
   PLEINAIR_ASSIGN_OR_RETURN(response_.pixel_value_of_light,
                             gl::GlTexture::Create2D(GL_RGB32F, kPixelValueTableSize, 1));
   response_.light_of_pixel_value.Upload(GL_RGB, GL_FLOAT, tables[0].data());
@@ -172,8 +177,19 @@ void CameraPicture::SetGrain(const gl::GlProgram& program) const {
   grain_.texture.Bind(6);
 }
 
-void CameraPicture::SetBackground(ImageView<const std::uint8_t> rgb) {
-  background_.Upload(GL_RGB, GL_UNSIGNED_BYTE, rgb.data());
+Result<void> CameraPicture::SetBackground(CameraImageView image) {
+  const bool deep = !image.deep().empty();
+  const GLenum format = deep ? GL_RGBA16 : GL_RGBA8;
+  if (background_.internal_format() != format) {
+    PLEINAIR_ASSIGN_OR_RETURN(background_,
+                              gl::GlTexture::Create2D(format, camera_.width, camera_.height));
+  }
+  if (deep) {
+    background_.Upload(GL_RGB, GL_UNSIGNED_SHORT, image.deep().data());
+  } else {
+    background_.Upload(GL_RGB, GL_UNSIGNED_BYTE, image.rgb().data());
+  }
+  return {};
 }
 
 ImageTiles CameraPicture::SetTiles(const AffectedTiles& tiles) {

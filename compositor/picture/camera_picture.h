@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/camera_image.h"
 #include "base/camera_model.h"
 #include "base/camera_response.h"
 #include "base/error.h"
@@ -35,8 +36,9 @@ class CameraPicture {
   /// Counts an image that is not drawn: each one has noise of its own.
   void Skip() { ++grain_.pictures; }
 
-  /// Uploads the camera image `rgb`. It must have the camera's size and no gaps between rows.
-  void SetBackground(ImageView<const std::uint8_t> rgb);
+  /// Uploads the camera image. It must have the camera's size and no gaps between rows. Errors: no
+  /// memory.
+  Result<void> SetBackground(CameraImageView image);
   /// Max. distance by which the blur spreads a drawn pixel, along a row or column, in render
   /// pixels. 0 without blur.
   int Spread_px() const { return added_blur_px_ > 0.0 ? 2 * BlurReach_px() : 0; }

@@ -19,12 +19,12 @@ layout(binding = 3) uniform sampler2D u_positions;    // RenderPositions(), texe
 layout(location = 0) out vec4 out_encoded;
 
 #ifdef CAMERA_RESPONSE
-layout(binding = 4) uniform sampler2D u_light_of_pixel_value;  // 256 texels.
+layout(binding = 4) uniform sampler2D u_light_of_pixel_value;  // At sixteenths of 8-bit values.
 // Evenly spaced in the square root of light.
 layout(binding = 5) uniform sampler2D u_pixel_value_of_light;
 
 vec3 LinearFromEncoded(vec3 encoded) {
-  ivec3 code = ivec3(encoded * 255.0 + 0.5);
+  ivec3 code = ivec3(encoded * 4080.0 + 0.5);
   return vec3(texelFetch(u_light_of_pixel_value, ivec2(code.r, 0), 0).r,
               texelFetch(u_light_of_pixel_value, ivec2(code.g, 0), 0).g,
               texelFetch(u_light_of_pixel_value, ivec2(code.b, 0), 0).b);

@@ -46,7 +46,7 @@ float SunTransmittanceSeen(VisibleSurface surface, int component, float sun, Fog
   float light = 0.0;
   for (int i = 0; i < 4; ++i) {
     vec2 aside = vec2((i & 1) == 0 ? -0.8 : 0.8, (i & 2) == 0 ? -0.8 : 0.8);
-    float code = texture(u_background, (at + aside) / size).g * 255.0;
+    float code = texture(u_background, (at + aside) / size).g * 4080.0;
     light += 0.25 * texelFetch(u_light_of_pixel_value, ivec2(int(code + 0.5), 0), 0).g;
   }
   float radiance = max(light / max(u_exposure_scale.g, 1e-12) - air.light.g, 0.0) / air.left.g;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <utility>
 
 namespace pleinair::devices {
 namespace {
@@ -33,18 +34,27 @@ ImageSize DisplayTurn::Turned(ImageSize stored) const {
 }
 
 Image<std::uint8_t> DisplayTurn::Turned(Image<std::uint8_t> stored) const {
+  return TurnedPixels(std::move(stored));
+}
+
+Image<std::uint16_t> DisplayTurn::Turned(Image<std::uint16_t> stored) const {
+  return TurnedPixels(std::move(stored));
+}
+
+template <typename T>
+Image<T> DisplayTurn::TurnedPixels(Image<T> stored) const {
   if (*this == DisplayTurn()) return stored;
   const ImageSize size = Turned(ImageSize{stored.width(), stored.height()});
   const int channels = stored.channels();
-  Image<std::uint8_t> turned(size.width, size.height, channels);
+  Image<T> turned(size.width, size.height, channels);
   // The pixel (x, y) shows the stored one (a x + b y, c x + d y) plus an offset: the inverse of the
   // matrix is its transpose.
   const int from_x = a_ < 0 || b_ < 0 ? stored.width() - 1 : 0;
   const int from_y = c_ < 0 || d_ < 0 ? stored.height() - 1 : 0;
   for (int y = 0; y < size.height; ++y) {
-    std::uint8_t* target = turned.view().row(y);
+    T* target = turned.view().row(y);
     for (int x = 0; x < size.width; ++x) {
-      const std::uint8_t* source = &stored(from_x + a_ * x + b_ * y, from_y + c_ * x + d_ * y);
+      const T* source = &stored(from_x + a_ * x + b_ * y, from_y + c_ * x + d_ * y);
       target = std::copy_n(source, channels, target);
     }
   }

@@ -28,12 +28,16 @@ class DisplayTurn {
   ImageSize Turned(ImageSize stored) const;
   /// An image of any number of channels.
   Image<std::uint8_t> Turned(Image<std::uint8_t> stored) const;
+  Image<std::uint16_t> Turned(Image<std::uint16_t> stored) const;
 
   /// Clockwise rotation before a possible left-right mirroring, degrees: 0, 90, 180 or 270.
   int clockwise_deg() const;
   bool mirrored() const;
 
  private:
+  template <typename T>
+  Image<T> TurnedPixels(Image<T> stored) const;
+
   DisplayTurn(int a, int b, int c, int d) : a_(a), b_(b), c_(c), d_(d) {}
 
   // The matrix's linear part: -1, 0 or 1.

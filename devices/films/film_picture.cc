@@ -18,7 +18,7 @@ constexpr std::size_t kSignals = 65'536;
 // In steps of the square root of light, since powers of 1/2.2 and 1/2.8 are infinitely steep at
 // black. One step changes the signal by less than a tenth of an 8-bit step in every curve.
 constexpr std::size_t kLights = 65'536;
-constexpr std::size_t kRowsTogether = 32;
+constexpr std::size_t kPixelsTogether = 65'536;
 
 int ScalerMatrix(int matrix) {
   switch (matrix) {
@@ -36,6 +36,43 @@ int ScalerMatrix(int matrix) {
   }
 }
 
+/// Bits of a pixel's deepest component.
+int BitsOf(const AVPixFmtDescriptor& format) {
+  int bits = 0;
+  for (int i = 0; i < format.nb_components; ++i) bits = std::max(bits, format.comp[i].depth);
+  return bits;
+}
+
+/// What libswscale makes of white in 16 bits: not 65,535 (FilmColors.EachStepOf10BitsIsKept,
+/// FilmColors.WhiteIsTheLastStep).
+int WhiteOf(const AVPixFmtDescriptor& format, bool full_range) {
+  constexpr int kLimited = 65'283, kFull = 65'535;
+  const int bits = BitsOf(format);
+  if ((format.flags & AV_PIX_FMT_FLAG_RGB) != 0) return bits > 8 ? kFull : kLimited;
+  return full_range ? ((1 << bits) - 1) << (16 - bits) : kLimited;
+}
+
+void StretchToWhite(int white, DeepImage* signal) {
+  const auto factor = static_cast<std::uint64_t>((kSignals << 16) / static_cast<unsigned>(white));
+  ParallelForBlocks(signal->size(), 3 * kPixelsTogether, [&](std::size_t first, std::size_t end) {
+    for (std::size_t i = first; i < end; ++i) {
+      const std::uint64_t stretched = (signal->data()[i] * factor + 0x8000) >> 16;
+      signal->data()[i] = static_cast<std::uint16_t>(std::min<std::uint64_t>(stretched, 0xFFFF));
+    }
+  });
+}
+
+RgbImage Rounded(const DeepImage& deep) {
+  constexpr int kPerCode = 257;  // 65,535 / 255.
+  RgbImage rgb(deep.width(), deep.height(), deep.channels());
+  ParallelForBlocks(deep.size(), 3 * kPixelsTogether, [&](std::size_t first, std::size_t end) {
+    for (std::size_t i = first; i < end; ++i) {
+      rgb.data()[i] = static_cast<std::uint8_t>((deep.data()[i] + kPerCode / 2) / kPerCode);
+    }
+  });
+  return rgb;
+}
+
 }  // namespace
 
 FilmPictures::FilmPictures(std::string name, FilmColors colors, DisplayTurn turn)
@@ -48,11 +85,12 @@ FilmPictures::FilmPictures(std::string name, FilmColors colors, DisplayTurn turn
   encoded_.resize(kLights);
   for (std::size_t i = 0; i < kLights; ++i) {
     const double root = static_cast<double>(i) / (kLights - 1);
-    encoded_[i] = static_cast<std::uint8_t>(std::lround(colors_.Encoded(root * root) * 255.0));
+    encoded_[i] =
+        static_cast<std::uint16_t>(std::lround(colors_.Encoded(root * root) * (kSignals - 1)));
   }
 }
 
-Result<RgbImage> FilmPictures::Convert(const AVFrame& frame) {
+Result<FilmPicture> FilmPictures::Convert(const AVFrame& frame) {
   const auto format = static_cast<AVPixelFormat>(frame.format);
   const auto refused = [&] {
     const char* words = av_get_pix_fmt_name(format);
@@ -61,11 +99,13 @@ Result<RgbImage> FilmPictures::Convert(const AVFrame& frame) {
                           (words != nullptr ? words : "unknown") + ", which cannot be converted",
                       "convert it to MP4 with H.264");
   };
-  if (sws_isSupportedInput(format) == 0) return refused();
+  const AVPixFmtDescriptor* facts = av_pix_fmt_desc_get(format);
+  if (facts == nullptr || sws_isSupportedInput(format) == 0) return refused();
   const bool converted = colors_.IsConverted();
+  const bool deep = converted || BitsOf(*facts) > 8;
   SwsContext* scaler = sws_getCachedContext(
       scaler_.release(), frame.width, frame.height, format, frame.width, frame.height,
-      converted ? AV_PIX_FMT_RGB48 : AV_PIX_FMT_RGB24,
+      deep ? AV_PIX_FMT_RGB48 : AV_PIX_FMT_RGB24,
       SWS_BICUBIC | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INT, nullptr, nullptr, nullptr);
   scaler_.reset(scaler);
   if (scaler == nullptr) return refused();
@@ -78,36 +118,37 @@ Result<RgbImage> FilmPictures::Convert(const AVFrame& frame) {
     return sws_scale(scaler, frame.data, frame.linesize, 0, frame.height, rows, strides) ==
            frame.height;
   };
-  if (converted) {
-    std::vector<std::uint16_t> signal(static_cast<std::size_t>(frame.width) * frame.height * 3);
-    if (!scale(reinterpret_cast<std::uint8_t*>(signal.data()), 6)) return refused();
-    return turn_.Turned(ThroughLight(signal, frame.width, frame.height));
+  FilmPicture picture;
+  if (!deep) {
+    RgbImage rgb(frame.width, frame.height, 3);
+    if (!scale(rgb.data(), 3)) return refused();
+    picture.rgb = turn_.Turned(std::move(rgb));
+    return picture;
   }
-  RgbImage rgb(frame.width, frame.height, 3);
-  if (!scale(rgb.data(), 3)) return refused();
-  return turn_.Turned(std::move(rgb));
+  DeepImage signal(frame.width, frame.height, 3);
+  if (!scale(reinterpret_cast<std::uint8_t*>(signal.data()), 6)) return refused();
+  StretchToWhite(WhiteOf(*facts, colors_.full_range), &signal);
+  if (converted) ThroughLight(&signal);
+  picture.deep = turn_.Turned(std::move(signal));
+  picture.rgb = Rounded(picture.deep);
+  return picture;
 }
 
-RgbImage FilmPictures::ThroughLight(const std::vector<std::uint16_t>& signal, int width,
-                                    int height) const {
-  RgbImage rgb(width, height, 3);
+void FilmPictures::ThroughLight(DeepImage* signal) const {
   std::array<float, 9> matrix{};
   std::copy(colors_.rec709_from_film.m.begin(), colors_.rec709_from_film.m.end(), matrix.begin());
   constexpr auto kMaxRoot = static_cast<float>(kLights - 1);
-  const auto rows = static_cast<std::size_t>(height);
-  ParallelFor((rows + kRowsTogether - 1) / kRowsTogether, 0, [&](std::size_t chunk) {
-    const std::size_t begin = chunk * kRowsTogether * width * 3;
-    const std::size_t end = std::min(rows, (chunk + 1) * kRowsTogether) * width * 3;
-    for (std::size_t i = begin; i < end; i += 3) {
-      const float r = light_[signal[i]], g = light_[signal[i + 1]], b = light_[signal[i + 2]];
+  ParallelForBlocks(signal->size() / 3, kPixelsTogether, [&](std::size_t first, std::size_t end) {
+    for (std::size_t i = 3 * first; i < 3 * end; i += 3) {
+      std::uint16_t* pixel = signal->data() + i;
+      const float r = light_[pixel[0]], g = light_[pixel[1]], b = light_[pixel[2]];
       for (std::size_t c = 0; c < 3; ++c) {
         const float light = matrix[3 * c] * r + matrix[3 * c + 1] * g + matrix[3 * c + 2] * b;
         const float scaled = std::sqrt(std::clamp(light, 0.0F, 1.0F)) * kMaxRoot + 0.5F;
-        rgb.data()[i + c] = encoded_[static_cast<std::size_t>(scaled)];
+        pixel[c] = encoded_[static_cast<std::size_t>(scaled)];
       }
     }
   });
-  return rgb;
 }
 
 }  // namespace pleinair::devices

@@ -139,7 +139,9 @@ class VideoFile : public FrameSource {
     Frame frame;
     frame.index = static_cast<std::int64_t>(index);
     frame.timestamp_ns = times_.Nanoseconds(index);
-    PLEINAIR_ASSIGN_OR_RETURN(frame.rgb, pictures_.Convert(decoded));
+    PLEINAIR_ASSIGN_OR_RETURN(FilmPicture picture, pictures_.Convert(decoded));
+    frame.rgb = std::move(picture.rgb);
+    frame.deep = std::move(picture.deep);
     frame.grey = GreyOf(frame.rgb);
     return frame;
   }

@@ -79,11 +79,11 @@ void ForwardFollower::StartNext() {
   current_ = std::move(next_);
 }
 
-void ForwardFollower::Add(ImageView<const std::uint8_t> rgb, const Transform<Camera, Marker>& pose,
+void ForwardFollower::Add(CameraImageView image, const Transform<Camera, Marker>& pose,
                           const scene::MarkerReflectance& marker, std::int64_t frame_index,
                           std::int64_t timestamp_ns) {
   const auto probe = [&](Stage* stage) {
-    stage->probes.AddFrame(rgb, pose, marker, frame_index, timestamp_ns);
+    stage->probes.AddFrame(image, pose, marker, frame_index, timestamp_ns);
     return stage->probes.TakeFrame();
   };
   if (next_ && next_->probes.probes().empty()) probe(next_.get());

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/camera_image.h"
 #include "base/camera_model.h"
 #include "base/camera_response.h"
 #include "base/frames.h"
@@ -59,7 +60,7 @@ class ForwardFollower {
 
   /// Estimates the light of the next frame. Frames come in order of their stamps. Cost: 1 to 2 ms
   /// for 450 probes.
-  void Add(ImageView<const std::uint8_t> rgb, const Transform<Camera, Marker>& pose,
+  void Add(CameraImageView image, const Transform<Camera, Marker>& pose,
            const scene::MarkerReflectance& marker, std::int64_t frame_index,
            std::int64_t timestamp_ns);
 

@@ -70,7 +70,7 @@ void LiveLight::Follow() {
     lock.unlock();
     if (lit) follower_.AddLights(lit->reference, lit->lights);
     for (const LightReference& reference : references) follower_.Use(reference);
-    follower_.Add(shown.frame->rgb.view(), shown.camera_from_marker, shown.marker,
+    follower_.Add(devices::ImageOf(*shown.frame), shown.camera_from_marker, shown.marker,
                   shown.frame->index, shown.frame->timestamp_ns);
     auto to_light = follower_.ProbesWithoutLight();
     const FollowedLight light = follower_.Newest();

@@ -19,6 +19,7 @@
 #include "compositor/light/sun_transmittance_map.h"
 #include "compositor/models/alpha_cutout.h"
 #include "tests/compositor/composer_scene.h"
+#include "tests/compositor/gentle_response.h"
 
 namespace pleinair::compositor {
 namespace {
@@ -50,6 +51,36 @@ TEST(Composer, ColorsAnObjectByItsTextureAndLeavesTheCameraWhatIsCutOut) {
   EXPECT_EQ(SeenAt(composed, {-0.35, 0.35, 0.1}), LinearFromSrgb8()[77]);
   // An adjacent object without a texture keeps its own color.
   EXPECT_NEAR(SeenAt(composed, {0, 0, 0.3}), Level(0.5), 0.02);
+}
+
+TEST(Composer, DrawsShadowsAtTheDepthOfTheFilm) {
+  constexpr int kCode = 150;
+  for (const bool is_srgb : {true, false}) {
+    ComposerOptions options;
+    if (!is_srgb) options.response = testing::GentleResponse();
+    const std::vector<PlacedModel> scene{kGround, kCube};
+    const auto compose = [&](CameraImageView picture) {
+      return Compose(scene, picture, kCamera, kSunLux, options, {}, false);
+    };
+    const RgbImage below = EvenPicture(kCode), above = EvenPicture(kCode + 1);
+    DeepImage between(kCamera.width, kCamera.height, 3);
+    std::fill_n(between.data(), between.size(), static_cast<std::uint16_t>(257 * kCode + 64));
+    const RgbImage low = compose(below.view()), high = compose(above.view());
+    const RgbImage deep = compose({below.view(), std::as_const(between).view()});
+    // The mean of many ratios: it does not go in steps.
+    double low_sum = 0.0, high_sum = 0.0, deep_sum = 0.0;
+    int count = 0;
+    for (std::size_t i = 0; i < low.size(); ++i) {
+      if (low.data()[i] >= kCode - 5) continue;
+      low_sum += low.data()[i];
+      high_sum += high.data()[i];
+      deep_sum += deep.data()[i];
+      ++count;
+    }
+    ASSERT_GT(count, 1000);
+    EXPECT_NEAR(deep_sum / count, (0.75 * low_sum + 0.25 * high_sum) / count, 0.1) << is_srgb;
+    EXPECT_GT(deep_sum / count, low_sum / count + 0.05) << is_srgb;
+  }
 }
 
 TEST(Composer, SmoothsASlantedEdgeInFourSteps) {

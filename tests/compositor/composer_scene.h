@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/camera_image.h"
 #include "base/srgb.h"
 #include "compositor/composer.h"
 #include "compositor/light/light_solver.h"
@@ -84,7 +85,7 @@ inline const PlacedModel kGround = Place(MakeBox({-4, -4, 0}, {4, 4, 0}, 0.3F), 
 inline const PlacedModel kCube =
     Place(MakeBox({-0.15, -0.15, 0.001}, {0.15, 0.15, 0.3}, 0.5F), false);
 
-inline RgbImage Compose(const std::vector<PlacedModel>& scene, const RgbImage& picture,
+inline RgbImage Compose(const std::vector<PlacedModel>& scene, CameraImageView picture,
                         const CameraModel& camera = kCamera, double sun_lux = kSunLux,
                         ComposerOptions options = {}, const std::optional<CameraLook>& look = {},
                         bool assume_unmodelled_shadows = true) {
@@ -102,10 +103,18 @@ inline RgbImage Compose(const std::vector<PlacedModel>& scene, const RgbImage& p
   if (const auto looks = (*composer)->SetCameraLook(look); !looks) {
     ADD_FAILURE() << looks.error().Message();
   }
-  auto composed = (*composer)->Compose(picture.view(), kFromAbove,
-                                       {kExposureScale, kExposureScale, kExposureScale});
+  auto composed =
+      (*composer)->Compose(picture, kFromAbove, {kExposureScale, kExposureScale, kExposureScale});
   if (!composed) ADD_FAILURE() << composed.error().Message();
   return *std::move(composed);
+}
+
+inline RgbImage Compose(const std::vector<PlacedModel>& scene, const RgbImage& picture,
+                        const CameraModel& camera = kCamera, double sun_lux = kSunLux,
+                        ComposerOptions options = {}, const std::optional<CameraLook>& look = {},
+                        bool assume_unmodelled_shadows = true) {
+  return Compose(scene, CameraImageView(picture.view()), camera, sun_lux, std::move(options), look,
+                 assume_unmodelled_shadows);
 }
 
 inline RgbImage EvenPicture(std::uint8_t code) {

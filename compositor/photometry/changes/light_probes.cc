@@ -64,7 +64,7 @@ void LightProbes::AddMarker(const scene::MarkerReflectance& marker) {
   }
 }
 
-bool LightProbes::Observe(ImageView<const std::uint8_t> rgb, const Transform<Camera, Marker>& pose,
+bool LightProbes::Observe(CameraImageView image, const Transform<Camera, Marker>& pose,
                           std::uint32_t probe, Vec2* pixel, ProbedFrame* frame) const {
   const Point<Marker>& point = probes_[probe].point;
   const Vec3 normal = probes_[probe].normal;
@@ -79,13 +79,14 @@ bool LightProbes::Observe(ImageView<const std::uint8_t> rgb, const Transform<Cam
   const double seen_m = width_m * Dot(normal, to_eye) / distance;
   const bool blurred = width_m > 0.0 && seen_m < kMinBand_px * footprint_m;
   if (blurred || !Keeps(probe, frames_.size())) {
-    return pixel->x >= 0.0 && pixel->y >= 0.0 && pixel->x < rgb.width() && pixel->y < rgb.height();
+    return pixel->x >= 0.0 && pixel->y >= 0.0 && pixel->x < image.width() &&
+           pixel->y < image.height();
   }
   std::array<double, 3> sum{};
   for (int i = 0; i < 4; ++i) {
     const double reach_px = width_m > 0.0 ? kReachInBand_px : kReach_px;
     const Vec2 aside{(i & 1) == 0 ? -reach_px : reach_px, (i & 2) == 0 ? -reach_px : reach_px};
-    const auto linear = SampleLinear(rgb, *pixel + aside, response_);
+    const auto linear = SampleLinear(image, *pixel + aside, response_);
     if (!linear) return false;
     for (int c = 0; c < 3; ++c) {
       const auto& light = response_.Linear(c);
@@ -101,18 +102,18 @@ bool LightProbes::Observe(ImageView<const std::uint8_t> rgb, const Transform<Cam
   return true;
 }
 
-void LightProbes::AddFrame(ImageView<const std::uint8_t> rgb, const Transform<Camera, Marker>& pose,
+void LightProbes::AddFrame(CameraImageView image, const Transform<Camera, Marker>& pose,
                            const scene::MarkerReflectance& marker, std::int64_t frame_index,
                            std::int64_t timestamp_ns) {
   ProbedFrame frame{frame_index, timestamp_ns, {}, {}};
   if (probes_.empty() && marker.size_m > 0.0) AddMarker(marker);
-  const int step = std::max(2, static_cast<int>(std::sqrt(static_cast<double>(rgb.width()) *
-                                                          rgb.height() / kProbesPerFrame)));
-  const int columns = rgb.width() / step, rows = rgb.height() / step;
+  const int step = std::max(2, static_cast<int>(std::sqrt(static_cast<double>(image.width()) *
+                                                          image.height() / kProbesPerFrame)));
+  const int columns = image.width() / step, rows = image.height() / step;
   std::vector<std::uint8_t> taken(static_cast<std::size_t>(columns) * rows);
   for (std::uint32_t probe = 0; probe < probes_.size(); ++probe) {
     Vec2 pixel;
-    if (!Observe(rgb, pose, probe, &pixel, &frame)) continue;
+    if (!Observe(image, pose, probe, &pixel, &frame)) continue;
     const int x = static_cast<int>(pixel.x) / step, y = static_cast<int>(pixel.y) / step;
     if (x < columns && y < rows) taken[static_cast<std::size_t>(y) * columns + x] = 1;
   }
@@ -132,7 +133,7 @@ void LightProbes::AddFrame(ImageView<const std::uint8_t> rgb, const Transform<Ca
         {seen->point, seen->normal, seen->surface, seen->albedo, 0.0,
          Norm(seen->point.xyz - eye.xyz) / std::max(1.0, std::min(camera_.fx, camera_.fy))});
     Vec2 pixel;
-    Observe(rgb, pose, static_cast<std::uint32_t>(probes_.size() - 1), &pixel, &frame);
+    Observe(image, pose, static_cast<std::uint32_t>(probes_.size() - 1), &pixel, &frame);
   }
   readings_ += frame.probes.size();
   frames_.push_back(std::move(frame));

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "base/camera_image.h"
 #include "base/camera_model.h"
 #include "base/camera_response.h"
 #include "base/frames.h"
@@ -48,7 +49,7 @@ class LightProbes {
               const CameraResponse& response, std::size_t max_readings = 2'000'000);
 
   /// Adds a frame; new surfaces in view get new probes. Frames must come in order.
-  void AddFrame(ImageView<const std::uint8_t> rgb, const Transform<Camera, Marker>& pose,
+  void AddFrame(CameraImageView image, const Transform<Camera, Marker>& pose,
                 const scene::MarkerReflectance& marker, std::int64_t frame_index,
                 std::int64_t timestamp_ns);
 
@@ -71,8 +72,8 @@ class LightProbes {
   void AddMarker(const scene::MarkerReflectance& marker);
   /// Returns whether the probe's pixel lies in the image, and appends its brightness if it is
   /// visible and not clipped.
-  bool Observe(ImageView<const std::uint8_t> rgb, const Transform<Camera, Marker>& pose,
-               std::uint32_t probe, Vec2* pixel, ProbedFrame* frame) const;
+  bool Observe(CameraImageView image, const Transform<Camera, Marker>& pose, std::uint32_t probe,
+               Vec2* pixel, ProbedFrame* frame) const;
 
   const PhantomRays& phantoms_;
   CameraModel camera_;

@@ -34,8 +34,8 @@ class ShadedLevels {
   /// Logarithmic likelihood of each error e of the exposure scale, where all mixes are as probable
   /// on each cell, whatever is around it.
   LevelFunction Uncoupled() const;
-  /// Logarithmic pseudo-likelihood of one error, by the mixes around each cell (Besag 1975): the
-  /// product over the cells of the density of each, given what its neighbours show.
+  /// Logarithmic pseudo-likelihood of one error, by the mixes around each cell (Besag 1975). It is
+  /// the product over the cells of the density of each, given what its neighbours show.
   double At(double e);
 
   // After At(e).

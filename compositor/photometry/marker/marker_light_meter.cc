@@ -148,7 +148,7 @@ MarkerLightMeter::MarkerLightMeter(const scene::MarkerReflectance& marker,
 }
 
 MarkerLightMeter::Samples MarkerLightMeter::SamplesIn(
-    ImageView<const std::uint8_t> rgb, const CameraModel& camera,
+    CameraImageView image, const CameraModel& camera,
     const Transform<Camera, Marker>& camera_from_marker) const {
   Samples samples;
   samples.pairs.reserve(pairs_.size());
@@ -160,8 +160,8 @@ MarkerLightMeter::Samples MarkerLightMeter::SamplesIn(
     const Vec2 white_px = ProjectToPixel(camera, white_in_camera);
     const Vec2 black_px = ProjectToPixel(camera, black_in_camera);
     if (Norm(white_px - black_px) < kMinBand_px) continue;
-    const auto white = SampleLinear(rgb, white_px, response_);
-    const auto black = SampleLinear(rgb, black_px, response_);
+    const auto white = SampleLinear(image, white_px, response_);
+    const auto black = SampleLinear(image, black_px, response_);
     if (!white || !black) continue;
     const auto clipped_at = [&](int c, int code) {
       return static_cast<double>(response_.Linear(c)[code]);
@@ -199,9 +199,9 @@ MarkerLightMeter::Samples MarkerLightMeter::SamplesIn(
 }
 
 std::optional<MarkerShadowEdge> MarkerLightMeter::FindShadow(
-    ImageView<const std::uint8_t> rgb, const CameraModel& camera,
+    CameraImageView image, const CameraModel& camera,
     const Transform<Camera, Marker>& camera_from_marker) const {
-  const Samples samples = SamplesIn(rgb, camera, camera_from_marker);
+  const Samples samples = SamplesIn(image, camera, camera_from_marker);
   if (static_cast<double>(samples.contrary) >=
       kCovered * static_cast<double>(samples.pairs.size())) {
     return std::nullopt;
@@ -331,9 +331,9 @@ std::array<std::optional<MarkerLightMeter::ChannelScale>, 3> MarkerLightMeter::B
 }
 
 std::optional<ExposureEstimate> MarkerLightMeter::Measure(
-    ImageView<const std::uint8_t> rgb, const CameraModel& camera,
+    CameraImageView image, const CameraModel& camera,
     const Transform<Camera, Marker>& camera_from_marker) const {
-  auto [samples, contrary] = SamplesIn(rgb, camera, camera_from_marker);
+  auto [samples, contrary] = SamplesIn(image, camera, camera_from_marker);
   // An inverted marker, or a wrong pose. The exposure scale from its white, taken for black, would
   // be twenty times too high.
   if (contrary > samples.size()) return std::nullopt;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/camera_image.h"
 #include "base/camera_model.h"
 #include "base/camera_response.h"
 #include "base/frames.h"
@@ -55,13 +56,13 @@ class MarkerLightMeter {
   /// pairs are not clearly brighter on the white side. This is an inverted marker: some tag
   /// families have a border that is black outside and white inside.
   std::optional<ExposureEstimate> Measure(
-      ImageView<const std::uint8_t> rgb, const CameraModel& camera,
+      CameraImageView image, const CameraModel& camera,
       const Transform<Camera, Marker>& camera_from_marker) const;
 
   /// Finds a sharp shadow edge that divides the marker, whatever casts it. Returns nothing if too
   /// much of the marker is covered.
   std::optional<MarkerShadowEdge> FindShadow(
-      ImageView<const std::uint8_t> rgb, const CameraModel& camera,
+      CameraImageView image, const CameraModel& camera,
       const Transform<Camera, Marker>& camera_from_marker) const;
 
   /// Places of the pairs in use, at the edge between white and black. These are the sunlit pairs if
@@ -115,7 +116,7 @@ class MarkerLightMeter {
   /// the brightest.
   static std::array<std::optional<ChannelScale>, 3> BrightestOf(std::vector<Sample> pairs,
                                                                 int min_count);
-  Samples SamplesIn(ImageView<const std::uint8_t> rgb, const CameraModel& camera,
+  Samples SamplesIn(CameraImageView image, const CameraModel& camera,
                     const Transform<Camera, Marker>& camera_from_marker) const;
 
   scene::MarkerReflectance marker_;

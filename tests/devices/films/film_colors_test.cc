@@ -135,6 +135,10 @@ TEST(FilmColors, LightOfEveryKindOfFilmIsRead) {
         const int tolerance = each.depth == 8 ? 4 : each.transfer == 16 ? 3 : 2;
         EXPECT_NEAR(pixel, 255.0 * response.Encoded(light[c], c), tolerance)
             << each.name << ", patch " << i << ", channel " << c;
+        const bool deep = each.depth > 8 || each.primaries != 1;
+        ASSERT_EQ(frames[i].deep.empty(), !deep) << each.name;
+        if (!deep) continue;
+        EXPECT_EQ(pixel, std::lround(frames[i].deep(20, 20, c) / 257.0)) << each.name;
       }
     }
   }
@@ -162,6 +166,76 @@ TEST(FilmColors, AStepOfLightOf4IsAStepOf4) {
     const auto frames = tests::ReadAll(*video->frames);
     const double step = linear[frames[1].rgb(9, 9, 1)] / linear[frames[0].rgb(9, 9, 1)];
     EXPECT_NEAR(step, 4.0, 0.08) << transfer;
+  }
+}
+
+TEST(FilmColors, EachStepOf10BitsIsKept) {
+  const tests::TemporaryFolder folder;
+  for (const auto& [transfer, primaries] : {std::pair(18, 9), std::pair(1, 1)}) {
+    MadeFilm film;
+    film.encoder = "ffv1";  // Keeps each value.
+    film.pixels = "yuv420p10le";
+    film.primaries = film.matrix = primaries;
+    film.transfer = transfer;
+    film.ticks = tests::NtscTicks(30);
+    constexpr int kFirst = 400;
+    tests::WriteFilm(folder / "film.mkv", film,
+                     [](AVFrame* frame, int i) { tests::FillPlanes(frame, kFirst + i, 512, 512); });
+    const auto video = OpenVideo(folder / "film.mkv", {});
+    ASSERT_TRUE(video) << video.error().Message();
+    const CameraResponse response = ResponseOf(video->curve);
+    const auto frames = tests::ReadAll(*video->frames);
+    ASSERT_EQ(frames.size(), film.ticks.size());
+    for (int i = 0; i < static_cast<int>(frames.size()); ++i) {
+      const double signal = (kFirst + i - 64) / 876.0;  // ITU-T H.273, 8.3, Eq. (20).
+      double code = 255.0 * signal;
+      if (transfer == 18) {
+        // HLG's inverse, from the signal of reference white (BT.2408).
+        const auto light = [](double e) {
+          return e <= 0.5 ? e * e / 3 : (std::exp((e - 0.55991073) / 0.17883277) + 0.28466892) / 12;
+        };
+        code = 255.0 * response.Encoded(light(signal) / light(0.75), 1);
+      }
+      EXPECT_NEAR(frames[i].deep(9, 9, 1) / 257.0, code, 0.05) << transfer << ", frame " << i;
+      if (i == 0) continue;
+      EXPECT_GT(frames[i].deep(9, 9, 1), frames[i - 1].deep(9, 9, 1) + 30);
+    }
+  }
+}
+
+TEST(FilmColors, WhiteIsTheLastStep) {
+  struct Kind {
+    const char* pixels;
+    bool full_range;
+    std::array<int, 3> white;
+  };
+  const Kind kinds[] = {
+      {"yuv420p", false, {235, 128, 128}},        {"yuv420p", true, {255, 128, 128}},
+      {"yuv420p10le", false, {940, 512, 512}},    {"yuv420p10le", true, {1023, 512, 512}},
+      {"yuv444p12le", false, {3760, 2048, 2048}}, {"yuv444p12le", true, {4095, 2048, 2048}},
+      {"gbrp10le", true, {1023, 1023, 1023}}};
+  const tests::TemporaryFolder folder;
+  for (const Kind& kind : kinds) {
+    MadeFilm film;
+    film.encoder = "ffv1";
+    film.pixels = kind.pixels;
+    // With other primaries 8 bits are converted, too. White is white in all of them.
+    film.primaries = 12;
+    film.transfer = 1;
+    film.matrix = std::string(kind.pixels).starts_with("gbr") ? 0 : 1;
+    film.full_range = kind.full_range;
+    film.ticks = tests::NtscTicks(1);
+    tests::WriteFilm(folder / "film.mkv", film, [&](AVFrame* frame, int) {
+      tests::FillPlanes(frame, kind.white[0], kind.white[1], kind.white[2]);
+    });
+    const auto video = OpenVideo(folder / "film.mkv", {});
+    ASSERT_TRUE(video) << kind.pixels << video.error().Message();
+    const auto frames = tests::ReadAll(*video->frames);
+    ASSERT_EQ(frames.size(), 1U);
+    for (const int c : {0, 1, 2}) {
+      EXPECT_GE(frames[0].deep(9, 9, c), 65'520) << kind.pixels << kind.full_range;
+      EXPECT_EQ(frames[0].rgb(9, 9, c), 255) << kind.pixels << kind.full_range;
+    }
   }
 }
 
