@@ -19,6 +19,12 @@ std::set<int> UncoloredSurfaces(const std::vector<scene::ModelReference>& phanto
   return uncolored;
 }
 
+compositor::LightSolverOptions SolverOptionsOf(const LightOptions& options) {
+  compositor::LightSolverOptions solving;
+  solving.max_patches = options.overrides.max_patches.value_or(solving.max_patches);
+  return solving;
+}
+
 SceneLight::SceneLight(std::shared_ptr<const compositor::LightSolver> solver,
                        const scene::SceneDescription& scene, const LightOptions& options)
     : solver_(std::move(solver)), options_(options) {
@@ -51,9 +57,8 @@ std::optional<SceneLight::Conclusion> SceneLight::Conclude(const std::set<int>& 
 }
 
 Result<void> SceneLight::UseModels(const std::vector<compositor::PlacedModel>& placed) {
-  compositor::LightSolverOptions solving;
-  solving.max_patches = options_.overrides.max_patches.value_or(solving.max_patches);
-  PLEINAIR_ASSIGN_OR_RETURN(solver_, compositor::LightSolver::Create(placed, solving));
+  PLEINAIR_ASSIGN_OR_RETURN(solver_,
+                            compositor::LightSolver::Create(placed, SolverOptionsOf(options_)));
   coefficients_.reset();
   in_use_.reset();
   return {};

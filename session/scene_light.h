@@ -34,6 +34,9 @@ namespace pleinair::session {
 /// Indices of the described surfaces whose color is to be measured.
 std::set<int> UncoloredSurfaces(const std::vector<scene::ModelReference>& phantoms);
 
+/// How the light of a scene is traced.
+compositor::LightSolverOptions SolverOptionsOf(const LightOptions& options);
+
 /// Holds the daylight of one scene: its skies, described or estimated from frames, and the indirect
 /// illumination in use.
 class SceneLight {

@@ -118,8 +118,7 @@ Result<std::unique_ptr<SceneRenderer>> SceneRenderer::Create(
                               devices::ReadCameraResponse(scene.camera_response));
     renderer->response_ = composing.response;
   }
-  compositor::LightSolverOptions solving;
-  solving.max_patches = light.overrides.max_patches.value_or(solving.max_patches);
+  const compositor::LightSolverOptions solving = SolverOptionsOf(light);
   // The solver prepares the geometry while OpenGL compiles its programs.
   auto solver = std::async(std::launch::async,
                            [&] { return compositor::LightSolver::Create(placed, solving); });

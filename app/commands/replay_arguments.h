@@ -27,7 +27,7 @@ struct ReplayArguments {
     AntialiasingArguments antialiasing;
   } drawing;
   struct Day {
-    std::string hours, every = "10min";
+    std::string hours, every;
     std::optional<std::int64_t> frame;
   } day;  ///< Options of the time-lapse.
   struct Range {

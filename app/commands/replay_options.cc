@@ -63,13 +63,15 @@ void AddReplayOptions(CLI::App& command, ReplayArguments& arguments) {
   AddAntialiasingOptions(command, arguments.drawing.antialiasing);
   CLI::Option* time_lapse = command.add_option(
       "--time-lapse", arguments.day.hours,
-      "Also draw the whole scene, phantoms in their own colours, over its day: timelapse.mp4 and "
-      "the sheet timelapse.png; with --frames each picture. Hours on a clock, 05:00..21:00 or "
-      "05:00..21:00+02:00, or the word day: while it is light");
-  time_lapse->type_name("HOURS|day");
-  command.add_option("--every", arguments.day.every, "Step of the time-lapse: 10min, 90s, 1h")
-      ->needs(time_lapse)
-      ->capture_default_str();
+      "Also draw the whole scene, phantoms in their own colours, over time: timelapse.mp4 and the "
+      "sheet timelapse.png; with --frames each picture. Hours of its day on a clock, 05:00..21:00 "
+      "or 05:00..21:00+02:00, or the word day: while it is light. Or dates at a time of day, "
+      "2025-04-15..2025-10-15@12:00, with the leaves of each date");
+  time_lapse->type_name("HOURS|day|DATES");
+  command
+      .add_option("--every", arguments.day.every,
+                  "Step of the time-lapse: 10min (default), 90s, 1h; of dates 1d (default), 7d, 2w")
+      ->needs(time_lapse);
   command
       .add_option("--time-lapse-frame", arguments.day.frame,
                   "Frame from whose camera the time-lapse is seen; default: the middle one")

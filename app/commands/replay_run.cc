@@ -97,8 +97,8 @@ std::string CommandText(const ReplayArguments& arguments) {
     text += fmt::format(" --fog {}", fmt::join(arguments.drawing.fog, ","));
   text += AntialiasingOptionText(arguments.drawing.antialiasing);
   if (!arguments.day.hours.empty()) {
-    text +=
-        " --time-lapse " + Quoted(arguments.day.hours) + " --every " + Quoted(arguments.day.every);
+    text += " --time-lapse " + Quoted(arguments.day.hours);
+    if (!arguments.day.every.empty()) text += " --every " + Quoted(arguments.day.every);
   }
   if (arguments.day.frame) {
     text += fmt::format(" --time-lapse-frame {}", *arguments.day.frame);
@@ -133,8 +133,11 @@ Result<void> Run(ReplayArguments& arguments) {
     PLEINAIR_ASSIGN_OR_RETURN(options.size, ParsePictureSize("--size", arguments.size));
   }
   if (!arguments.day.hours.empty()) {
-    PLEINAIR_ASSIGN_OR_RETURN(options.time_lapse,
-                              ParseTimeLapse(arguments.day.hours, arguments.day.every));
+    PLEINAIR_ASSIGN_OR_RETURN(
+        options.time_lapse,
+        ParseTimeLapse(arguments.day.hours, arguments.day.every.empty()
+                                                ? std::nullopt
+                                                : std::optional(arguments.day.every)));
     options.time_lapse->frame = arguments.day.frame;
   }
   for (const std::string& name : arguments.exports) {

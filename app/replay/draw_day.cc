@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -9,6 +11,9 @@
 
 #include "app/replay/estimate_light.h"
 #include "app/replay/time_lapse/time_lapse.h"
+#include "compositor/light/light_solver.h"
+#include "session/leaf_materials.h"
+#include "session/scene_light.h"
 
 namespace pleinair::app {
 
@@ -33,6 +38,54 @@ Result<session::Observation> ViewOfDay(const ReplayState& state) {
                     "name another, or leave it out for the middle one");
 }
 
+namespace {
+
+/// True if leaves differ from date to date.
+bool LeavesChange(const ReplayState& state) {
+  return state.day_moments.over_dates &&
+         std::ranges::any_of(state.scene().leaves,
+                             [](const auto& leaf) { return !leaf.stages.empty(); });
+}
+
+/// The scene with the leaves of `time`, whose light is traced for each picture.
+Result<std::unique_ptr<DayRenderer>> RendererWithLeavesOf(ReplayState& state, UtcTime time) {
+  std::vector<compositor::PlacedModel> placed = state.renderer().placed();
+  PLEINAIR_RETURN_IF_ERROR(session::ReplaceByLeaves(state.scene().leaves, time, &placed));
+  session::LightingRequest request =
+      state.renderer().MakeLightingRequest(state.scene().place_time.start);
+  request.coefficients = nullptr;
+  PLEINAIR_ASSIGN_OR_RETURN(
+      request.solver,
+      compositor::LightSolver::Create(placed, session::SolverOptionsOf(state.options.light)));
+  return DayRenderer::Create(state.pipeline->output_camera(), std::move(placed), std::move(request),
+                             state.options.composer);
+}
+
+/// One renderer for all times, by daylight coefficients; where leaves change, one for each time.
+Result<RendererAt> RenderersOf(ReplayState& state) {
+  auto day = std::make_shared<std::unique_ptr<DayRenderer>>();
+  if (LeavesChange(state)) {
+    return [&state, day,
+            made_for = std::optional<UtcTime>()](UtcTime time) mutable -> Result<DayRenderer*> {
+      if (made_for != time) {
+        day->reset();
+        PLEINAIR_ASSIGN_OR_RETURN(*day, RendererWithLeavesOf(state, time));
+        made_for = time;
+      }
+      return day->get();
+    };
+  }
+  session::LightingRequest request =
+      state.renderer().MakeLightingRequest(state.scene().place_time.start);
+  request.coefficients = TraceCoefficients(state);
+  PLEINAIR_ASSIGN_OR_RETURN(
+      *day, DayRenderer::Create(state.pipeline->output_camera(), state.renderer().placed(),
+                                std::move(request), state.options.composer));
+  return [day](UtcTime) -> Result<DayRenderer*> { return day->get(); };
+}
+
+}  // namespace
+
 Result<void> DrawDay(ReplayState& state) {
   if (!state.options.time_lapse) return {};
   ReplayReport& report = state.report;
@@ -42,16 +95,10 @@ Result<void> DrawDay(ReplayState& state) {
     return {};
   }
   PLEINAIR_ASSIGN_OR_RETURN(const session::Observation view, ViewOfDay(state));
-  session::LightingRequest request =
-      state.renderer().MakeLightingRequest(state.scene().place_time.start);
-  request.coefficients = TraceCoefficients(state);
-  PLEINAIR_ASSIGN_OR_RETURN(
-      const auto day,
-      DayRenderer::Create(state.pipeline->output_camera(), state.renderer().placed(),
-                          std::move(request), state.options.composer));
+  PLEINAIR_ASSIGN_OR_RETURN(const RendererAt renderer_at, RenderersOf(state));
   PLEINAIR_ASSIGN_OR_RETURN(
       const std::vector<std::string> written, state.times.Measure("draw day", [&] {
-        return WriteTimeLapse(*day, state.day_moments, view.camera_from_marker,
+        return WriteTimeLapse(renderer_at, state.day_moments, view.camera_from_marker,
                               state.folder.staging(), state.write.frames);
       }));
   report.files.outputs.insert(report.files.outputs.end(), written.begin(), written.end());

@@ -1,6 +1,7 @@
 #include "app/replay/time_lapse/moments.h"
 
 #include <charconv>
+#include <chrono>
 #include <cmath>
 #include <string_view>
 #include <utility>
@@ -16,8 +17,12 @@ constexpr std::size_t kMaxPictures = 1440;
 constexpr double kTwilight_s = 1800.0;
 constexpr double kMinPeriod_s = 1.0;
 
-constexpr const char* kHoursRemedy = "write 05:00..21:00, 05:00..21:00+02:00 or day";
+constexpr int kMaxDays = 366;
+
+constexpr const char* kHoursRemedy =
+    "write 05:00..21:00, 05:00..21:00+02:00, day, or 2025-04-15..2025-10-15@12:00";
 constexpr const char* kEveryRemedy = "write 10min, 90s or 1h";
+constexpr const char* kEveryDaysRemedy = "write 1d, 7d or 2w";
 
 /// Returns "05:00" as minutes after midnight.
 std::optional<int> ParseClock(std::string_view text) {
@@ -52,34 +57,127 @@ Result<TimeLapseOptions::Hours> ParseHours(std::string_view text) {
   return hours;
 }
 
-}  // namespace
+/// Returns "2025-04-15" as days since 1970.
+std::optional<std::int64_t> ParseDate(std::string_view text) {
+  constexpr std::size_t kLength = 10;
+  if (text.size() != kLength || text[4] != '-' || text[7] != '-') return std::nullopt;
+  int year = 0;
+  unsigned month = 0, day = 0;
+  const char* begin = text.data();
+  const auto y = std::from_chars(begin, begin + 4, year);
+  const auto m = std::from_chars(begin + 5, begin + 7, month);
+  const auto d = std::from_chars(begin + 8, begin + kLength, day);
+  if (y.ptr != begin + 4 || m.ptr != begin + 7 || d.ptr != begin + kLength) return std::nullopt;
+  const std::chrono::year_month_day date{std::chrono::year(year), std::chrono::month(month),
+                                         std::chrono::day(day)};
+  constexpr int kFirstYear = 1900, kLastYear = 2100;
+  if (!date.ok() || year < kFirstYear || year > kLastYear) return std::nullopt;
+  return std::chrono::sys_days(date).time_since_epoch().count();
+}
 
-Result<TimeLapseOptions> ParseTimeLapse(const std::string& hours, const std::string& every) {
-  TimeLapseOptions options;
-  if (hours != "day") {
-    PLEINAIR_ASSIGN_OR_RETURN(options.hours, ParseHours(hours));
-  }
+/// Nothing: the text is none of dates.
+Result<std::optional<TimeLapseOptions::Dates>> ParseDates(std::string_view text) {
+  constexpr std::size_t kDate = 10, kSpan = 2 * kDate + 2, kClock = 5;
+  const auto fail = [&](const char* what) {
+    return InputError("--time-lapse", "\"" + std::string(text.substr(0, 48)) + "\" " + what,
+                      kHoursRemedy);
+  };
+  if (text.size() < kSpan || text.substr(kDate, 2) != "..") return std::nullopt;
+  const auto from = ParseDate(text.substr(0, kDate));
+  const auto until = ParseDate(text.substr(kDate + 2, kDate));
+  if (!from || !until) return fail("has a date that does not exist");
+  if (*until < *from) return fail("ends before it begins");
+  TimeLapseOptions::Dates dates{*from, *until, std::nullopt, std::nullopt};
+  std::string_view rest = text.substr(kSpan);
+  if (rest.empty()) return dates;
+  dates.at_min = rest[0] == '@' ? ParseClock(rest.substr(1, kClock)) : std::nullopt;
+  if (!dates.at_min) return fail("does not end with a time of day");
+  rest = rest.substr(1 + kClock);
+  if (rest.empty()) return dates;
+  PLEINAIR_ASSIGN_OR_RETURN(dates.clock, ParseUtcOffset(rest, "--time-lapse"));
+  return dates;
+}
+
+Result<double> ParseEvery(const std::string& every, bool days) {
+  constexpr double kDay_s = 86'400.0;
   double number = 0.0;
   const auto parsed = std::from_chars(every.data(), every.data() + every.size(), number);
   const std::string_view unit(parsed.ptr, every.data() + every.size());
-  const double seconds = unit == "s" ? 1.0 : unit == "min" ? 60.0 : unit == "h" ? 3600.0 : 0.0;
-  options.every_s = number * seconds;
-  if (parsed.ec != std::errc() || !(options.every_s >= kMinPeriod_s && options.every_s <= 86'400)) {
-    return InputError("--every", "\"" + every.substr(0, 40) + "\" is not a step of time",
-                      kEveryRemedy);
+  double seconds = 0.0;
+  if (days) {
+    seconds = unit == "d" ? kDay_s : unit == "w" ? 7.0 * kDay_s : 0.0;
+  } else {
+    seconds = unit == "s" ? 1.0 : unit == "min" ? 60.0 : unit == "h" ? 3600.0 : 0.0;
   }
+  const double every_s = number * seconds;
+  const bool fits =
+      days ? every_s >= kDay_s && every_s <= kMaxDays * kDay_s && std::fmod(every_s, kDay_s) == 0.0
+           : every_s >= kMinPeriod_s && every_s <= kDay_s;
+  if (parsed.ec == std::errc() && fits) return every_s;
+  return InputError("--every",
+                    "\"" + every.substr(0, 40) + "\" is not a step of " + (days ? "days" : "time"),
+                    days ? kEveryDaysRemedy : kEveryRemedy);
+}
+
+Result<void> CheckCount(std::size_t pictures) {
+  if (pictures <= kMaxPictures) return {};
+  return InputError("--every", "gives " + std::to_string(pictures) + " pictures",
+                    "take longer steps: " + std::to_string(kMaxPictures) + " are the most");
+}
+
+/// Midnight before the recording begins, and its minute of the day, on a clock.
+struct StartOnClock {
+  UtcTime midnight;
+  int minute = 0;
+};
+
+StartOnClock StartOn(UtcOffset clock, const scene::PlaceTime& place) {
+  constexpr std::int64_t kDayNs = internal::kNanosecondsPerDay;
+  const std::int64_t on_clock_ns =
+      place.start.PlusSeconds(clock.seconds()).nanoseconds_since_1970();
+  const std::int64_t into_day_ns = (on_clock_ns % kDayNs + kDayNs) % kDayNs;
+  return {UtcTime(place.start.nanoseconds_since_1970() - into_day_ns),
+          static_cast<int>(into_day_ns / (60 * internal::kNanosecondsPerSecond))};
+}
+
+Result<TimeLapseMoments> MomentsOfDates(const TimeLapseOptions::Dates& dates, double every_s,
+                                        const scene::PlaceTime& place) {
+  TimeLapseMoments moments;
+  moments.over_dates = true;
+  moments.clock = dates.clock.value_or(NauticalOffset(place.longitude_deg));
+  const int minute = dates.at_min.value_or(StartOn(moments.clock, place).minute);
+  const auto step = static_cast<std::int64_t>(every_s / 86'400.0);
+  const auto steps = static_cast<std::size_t>((dates.until_day - dates.from_day) / step);
+  PLEINAIR_RETURN_IF_ERROR(CheckCount(steps + 1));
+  for (std::size_t i = 0; i <= steps; ++i) {
+    const UtcTime midnight((dates.from_day + static_cast<std::int64_t>(i) * step) *
+                           internal::kNanosecondsPerDay);
+    moments.times.push_back(midnight.PlusSeconds(60.0 * minute - moments.clock.seconds()));
+  }
+  return moments;
+}
+
+}  // namespace
+
+Result<TimeLapseOptions> ParseTimeLapse(const std::string& hours,
+                                        const std::optional<std::string>& every) {
+  TimeLapseOptions options;
+  PLEINAIR_ASSIGN_OR_RETURN(options.dates, ParseDates(hours));
+  if (!options.dates && hours != "day") {
+    PLEINAIR_ASSIGN_OR_RETURN(options.hours, ParseHours(hours));
+  }
+  const bool days = options.dates.has_value();
+  PLEINAIR_ASSIGN_OR_RETURN(options.every_s,
+                            ParseEvery(every.value_or(days ? "1d" : "10min"), days));
   return options;
 }
 
 Result<TimeLapseMoments> MomentsOf(const TimeLapseOptions& options, const scene::PlaceTime& place) {
+  if (options.dates) return MomentsOfDates(*options.dates, options.every_s, place);
   TimeLapseMoments moments;
   moments.clock = NauticalOffset(place.longitude_deg);
   if (options.hours && options.hours->clock) moments.clock = *options.hours->clock;
-  constexpr std::int64_t kDayNs = internal::kNanosecondsPerDay;
-  const std::int64_t on_clock_ns =
-      place.start.PlusSeconds(moments.clock.seconds()).nanoseconds_since_1970();
-  const std::int64_t into_day_ns = (on_clock_ns % kDayNs + kDayNs) % kDayNs;
-  const UtcTime midnight(place.start.nanoseconds_since_1970() - into_day_ns);
+  const UtcTime midnight = StartOn(moments.clock, place).midnight;
   UtcTime from, until;
   if (options.hours) {
     from = midnight.PlusSeconds(60.0 * options.hours->from_min);
@@ -100,10 +198,7 @@ Result<TimeLapseMoments> MomentsOf(const TimeLapseOptions& options, const scene:
   const double span_s =
       static_cast<double>(until.nanoseconds_since_1970() - from.nanoseconds_since_1970()) * 1e-9;
   const auto steps = static_cast<std::size_t>(span_s / options.every_s + 1e-6);
-  if (steps >= kMaxPictures) {
-    return InputError("--every", "gives " + std::to_string(steps + 1) + " pictures",
-                      "take longer steps: " + std::to_string(kMaxPictures) + " are the most");
-  }
+  PLEINAIR_RETURN_IF_ERROR(CheckCount(steps + 1));
   for (std::size_t i = 0; i <= steps; ++i) {
     moments.times.push_back(from.PlusSeconds(static_cast<double>(i) * options.every_s));
   }

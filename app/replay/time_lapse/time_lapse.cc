@@ -98,14 +98,15 @@ Result<std::vector<std::uint8_t>> Bytes(const fs::path& file) {
 
 }  // namespace
 
-Result<std::vector<std::string>> WriteTimeLapse(DayRenderer& renderer,
+Result<std::vector<std::string>> WriteTimeLapse(const RendererAt& renderer_at,
                                                 const TimeLapseMoments& moments,
                                                 const Transform<Camera, Marker>& camera_from_marker,
                                                 const fs::path& folder, bool pictures) {
   std::vector<std::string> written{kTimeLapseVideo, kTimeLapseSheet};
   LinearRgb brightest;
+  PLEINAIR_ASSIGN_OR_RETURN(DayRenderer * renderer, renderer_at(moments.times.front()));
   for (const UtcTime time : moments.times) {
-    const LinearRgb light = renderer.LevelLight(time);
+    const LinearRgb light = renderer->LevelLight(time);
     if (Luminance(light) > Luminance(brightest)) brightest = light;
   }
   if (pictures) {
@@ -115,14 +116,16 @@ Result<std::vector<std::string>> WriteTimeLapse(DayRenderer& renderer,
   }
   std::unique_ptr<exports::VideoWriter> video;
   std::optional<ContactSheet> sheet;
-  ProgressBar bar("Drawing the day", static_cast<std::int64_t>(moments.times.size()), "pictures");
+  ProgressBar bar("Drawing the time-lapse", static_cast<std::int64_t>(moments.times.size()),
+                  "pictures");
   for (std::size_t i = 0; i < moments.times.size(); ++i) {
     PLEINAIR_RETURN_IF_ERROR(CheckInterrupt(""));
     const UtcTime time = moments.times[i];
+    PLEINAIR_ASSIGN_OR_RETURN(renderer, renderer_at(time));
     PLEINAIR_ASSIGN_OR_RETURN(
         const RgbImage picture,
-        renderer.Render(camera_from_marker, time,
-                        ExposureScaleOfDay(renderer.LevelLight(time), brightest)));
+        renderer->Render(camera_from_marker, time,
+                         ExposureScaleOfDay(renderer->LevelLight(time), brightest)));
     if (!video) {
       PLEINAIR_ASSIGN_OR_RETURN(
           video,
@@ -132,7 +135,9 @@ Result<std::vector<std::string>> WriteTimeLapse(DayRenderer& renderer,
     }
     PLEINAIR_RETURN_IF_ERROR(video->Add(
         picture.view(), std::llround(static_cast<double>(i) * 1e9 / kPicturesPerSecond)));
-    sheet->Offer(i, picture, ClockTime(time, moments.clock));
+    sheet->Offer(
+        i, picture,
+        moments.over_dates ? FormatLocalDate(time, moments.clock) : ClockTime(time, moments.clock));
     if (pictures) {
       const std::string name = fmt::format("{}/{:04}.png", kTimeLapsePictures, i);
       PLEINAIR_RETURN_IF_ERROR(exports::WritePng(folder / name, picture.view()));
@@ -154,11 +159,12 @@ Result<std::string> TimeLapseHtml(const fs::path& folder) {
   PLEINAIR_ASSIGN_OR_RETURN(const auto video, Bytes(folder / kTimeLapseVideo));
   PLEINAIR_ASSIGN_OR_RETURN(const auto sheet, Bytes(folder / kTimeLapseSheet));
   return fmt::format(
-      "<h2>The day of this scene</h2>\n<p class=\"lead\">Rendered from the models alone, in the "
+      "<h2>The scene over time</h2>\n<p class=\"lead\">Rendered from the models alone, in the "
       "light estimated from the frames.</p>\n<video controls autoplay loop muted "
       "style=\"width:100%;border-radius:8px\" src=\"data:video/mp4;base64,{}\"></video>\n"
-      "<figure><img alt=\"the day in pictures\" style=\"width:100%;border-radius:8px\" "
-      "src=\"data:image/png;base64,{}\"><figcaption>the day in pictures</figcaption></figure>\n",
+      "<figure><img alt=\"the time-lapse in pictures\" style=\"width:100%;border-radius:8px\" "
+      "src=\"data:image/png;base64,{}\"><figcaption>the time-lapse in "
+      "pictures</figcaption></figure>\n",
       files::Base64(video), files::Base64(sheet));
 }
 

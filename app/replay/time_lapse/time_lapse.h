@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -16,10 +17,13 @@ inline constexpr const char* kTimeLapseVideo = "timelapse.mp4";
 inline constexpr const char* kTimeLapseSheet = "timelapse.png";
 inline constexpr const char* kTimeLapsePictures = "timelapse";  ///< Folder of 0000.png and so on.
 
-/// Draws the times of a day. Writes the video and a contact sheet of some images with their times
-/// into a folder; with `pictures`, also every image. Shows a progress bar. Returns the written
-/// names, relative. Errors: drawing, writing, "interrupted".
-Result<std::vector<std::string>> WriteTimeLapse(DayRenderer& renderer,
+/// The renderer of a time; it stays valid until the next call.
+using RendererAt = std::function<Result<DayRenderer*>(UtcTime)>;
+
+/// Draws the times of a day or of several. Writes the video and a contact sheet of some images with
+/// their times or dates into a folder; with `pictures`, also every image. Shows a progress bar.
+/// Returns the written names, relative. Errors: drawing, writing, "interrupted".
+Result<std::vector<std::string>> WriteTimeLapse(const RendererAt& renderer_at,
                                                 const TimeLapseMoments& moments,
                                                 const Transform<Camera, Marker>& camera_from_marker,
                                                 const std::filesystem::path& folder, bool pictures);

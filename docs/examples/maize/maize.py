@@ -18,6 +18,13 @@ import zlib
 HEIGHT_M = 0.55  # Of a plant with nine leaves, in pot size for a courtyard.
 BLADES = 9
 ALONG, ACROSS = 24, 6  # Parts of a blade.
+# Date, chlorophyll and carotenoids in µg/cm², brown pigments.
+SEASON = [
+    ("2025-05-15", 18, 5, 0.0),
+    ("2025-07-10", 55, 11, 0.0),
+    ("2025-09-10", 30, 9, 0.0),
+    ("2025-10-10", 2, 8, 0.8),
+]
 
 
 def write_png(path, width, height, pixel):
@@ -108,6 +115,7 @@ def main():
     parser.add_argument("folder", type=pathlib.Path)
     parser.add_argument("--chlorophyll", type=float, default=45.0, help="µg/cm²; default 45")
     parser.add_argument("--carotenoids", type=float, default=9.0, help="µg/cm²; default 9")
+    parser.add_argument("--season", action="store_true", help="the contents from May to October")
     parser.add_argument("--opaque", action="store_true", help="a scene of opaque twins")
     arguments = parser.parse_args()
     folder = arguments.folder
@@ -139,6 +147,12 @@ def main():
             f"carotenoids_ug_cm2 = {arguments.carotenoids}\n"
             'water_cm = 0.012\ndry_g_cm2 = 0.005\nstructure_map = "structure.png"\n'
         )
+        if arguments.season:
+            for date, chlorophyll, carotenoids, brown in SEASON:
+                scene += (
+                    f"\n[[leaf.stage]]\ndate = {date}\nchlorophyll_ug_cm2 = {chlorophyll}\n"
+                    f"carotenoids_ug_cm2 = {carotenoids}\nbrown = {brown}\n"
+                )
     (folder / "scene.toml").write_text(scene)
 
 

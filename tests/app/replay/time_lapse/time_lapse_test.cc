@@ -62,12 +62,39 @@ TEST(TimeLapse, OfADayLastsFromBeforeSunriseUntilAfterSunset) {
   EXPECT_TRUE(MomentsOf(*ParseTimeLapse("00:00..24:00", "1h"), tromso));
 }
 
+TEST(TimeLapse, OfDatesHasOneTimeOfEachDay) {
+  const auto moments =
+      MomentsOf(*ParseTimeLapse("2025-04-15..2025-10-15@12:00+02:00", "7d"), Prague());
+  ASSERT_TRUE(moments);
+  EXPECT_TRUE(moments->over_dates);
+  ASSERT_EQ(moments->times.size(), 27U);
+  EXPECT_EQ(Clock(*moments, 0), "2025-04-15T12:00:00+02:00");
+  EXPECT_EQ(Clock(*moments, 26), "2025-10-14T12:00:00+02:00");
+  // Without a time of day it is that of the recording; across a leap day.
+  const auto winter = MomentsOf(*ParseTimeLapse("2024-02-28..2024-03-01", std::nullopt), Prague());
+  ASSERT_TRUE(winter);
+  ASSERT_EQ(winter->times.size(), 3U);
+  EXPECT_EQ(winter->times[1].ToString(), "2024-02-29T10:00:00Z");
+  EXPECT_EQ(MomentsOf(*ParseTimeLapse("2025-06-01..2025-06-01", "2w"), Prague())->times.size(), 1U);
+  EXPECT_FALSE(MomentsOf(*ParseTimeLapse("2020-01-01..2025-01-01", "1d"), Prague()));
+  for (const char* dates :
+       {"2025-04-15..2025-04-31", "2025-10-15..2025-04-15", "2025-04-15..2025-10-15@25:00",
+        "2025-04-15..2025-10-15@", "2025-04-15..2025-10-15 12:00", "25-04-15..25-10-15",
+        "1800-01-01..1800-02-01", "2025-04-15..2025-10-15@12:00+99"}) {
+    EXPECT_FALSE(ParseTimeLapse(dates, std::nullopt)) << dates;
+  }
+  for (const char* every : {"", "10min", "0d", "1.5d", "-1d", "367d", "d", "1e9w"}) {
+    EXPECT_FALSE(ParseTimeLapse("2025-04-15..2025-10-15", every)) << every;
+  }
+}
+
 TEST(TimeLapse, RefusesWhatIsNoPartOfADay) {
   for (const char* hours : {"", "5:00..21:00", "05:00-21:00", "05:00..", "05:00..24:01",
                             "21:00..05:00", "05:60..06:00", "05:00..21:00+99", "days"}) {
     EXPECT_FALSE(ParseTimeLapse(hours, "10min")) << hours;
   }
-  for (const char* every : {"", "10", "min", "-5min", "0s", "nans", "25h", "10 min", "1e99h"}) {
+  for (const char* every :
+       {"", "10", "min", "1d", "-5min", "0s", "nans", "25h", "10 min", "1e99h"}) {
     EXPECT_FALSE(ParseTimeLapse("05:00..21:00", every)) << every;
   }
   EXPECT_FALSE(MomentsOf(*ParseTimeLapse("00:00..24:00", "1s"), Prague())) << "too many pictures";
@@ -174,7 +201,8 @@ TEST_F(DayOfABox, BecomesAVideoASheetAndAPartOfAPage) {
   const fs::path folder = mkdtemp(pattern.data());
   EXPECT_EQ(*TimeLapseHtml(folder), "");
   const TimeLapseMoments moments{{At(6), At(9), At(12), At(15), At(18)}, {120}};
-  const auto written = WriteTimeLapse(*day_, moments, camera_from_marker_, folder, true);
+  const RendererAt always = [](UtcTime) -> Result<DayRenderer*> { return day_.get(); };
+  const auto written = WriteTimeLapse(always, moments, camera_from_marker_, folder, true);
   ASSERT_TRUE(written) << written.error().Message();
   EXPECT_EQ(written->size(), 7U);
   for (const std::string& name : *written) EXPECT_GT(fs::file_size(folder / name), 100U) << name;
