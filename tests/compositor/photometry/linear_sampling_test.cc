@@ -15,7 +15,7 @@ namespace {
 
 TEST(SampleLinear, UsesTheDepthOfTheSource) {
   const CameraResponse srgb;
-  // Of 8 bits' 100 are all values from 99.5 to 100.5.
+  // All values from 99.5 to 100.5 are 100 in 8 bits.
   for (const double code : {99.6, 100.0, 100.4}) {
     RgbImage rgb(2, 2, 3);
     DeepImage deep(2, 2, 3);
