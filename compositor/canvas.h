@@ -8,6 +8,7 @@
 #include "compositor/passes/render_camera.h"
 #include "compositor/passes/render_targets.h"
 #include "compositor/picture/camera_picture.h"
+#include "compositor/surfaces/scene_materials.h"
 
 namespace pleinair::compositor {
 
@@ -19,10 +20,9 @@ struct Canvas {
   CoarseRatio coarse;
   CameraPicture picture;
 
-  /// `detailed`: as RenderTargets::Create(). Errors as RenderTargets::Create() and
-  /// CameraPicture::Create().
+  /// For objects of `materials`. Errors as RenderTargets::Create() and CameraPicture::Create().
   static Result<Canvas> Create(const CameraModel& camera, const ComposerOptions& options,
-                               bool detailed);
+                               const SceneMaterials& materials);
 };
 
 }  // namespace pleinair::compositor

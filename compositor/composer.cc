@@ -129,8 +129,9 @@ Result<std::unique_ptr<Composer>> GlComposer::Make(const CameraModel& camera,
   std::unique_ptr<GlComposer> composer(new GlComposer(camera, std::move(context)));
   GlComposer& c = *composer;
   PLEINAIR_ASSIGN_OR_RETURN(c.light_, FrameDaylight::Create());
-  PLEINAIR_ASSIGN_OR_RETURN(c.passes_.ratio, ShadowRatioPass::Create());
   PLEINAIR_ASSIGN_OR_RETURN(c.surfaces_, SceneSurfaces::Create(scene));
+  PLEINAIR_ASSIGN_OR_RETURN(c.passes_.ratio,
+                            ShadowRatioPass::Create(c.surfaces_.materials().HasBlended()));
   PLEINAIR_ASSIGN_OR_RETURN(c.changing_, ChangingBodies::Create(scene));
   PLEINAIR_RETURN_IF_ERROR(c.SetRenderSize(options));
   PLEINAIR_RETURN_IF_ERROR(c.MakeShadows(c.MapOptions(options)));
@@ -142,8 +143,7 @@ Result<std::unique_ptr<Composer>> GlComposer::Make(const CameraModel& camera,
 
 /// Sets the number of render pixels and creates the render targets.
 Result<void> GlComposer::SetRenderSize(const ComposerOptions& options) {
-  PLEINAIR_ASSIGN_OR_RETURN(canvas_,
-                            Canvas::Create(camera_, options, surfaces_.materials().HasDetails()));
+  PLEINAIR_ASSIGN_OR_RETURN(canvas_, Canvas::Create(camera_, options, surfaces_.materials()));
   PLEINAIR_ASSIGN_OR_RETURN(passes_.objects,
                             ObjectPass::Create(surfaces_.materials().HasDetails(),
                                                options.antialiasing.DrawnPlaces() > 1));

@@ -37,12 +37,12 @@ bool HasJump(const Image<float>& values, const PixelRect& tile) {
 
 }  // namespace
 
-Result<CoarseRatio> CoarseRatio::Create(const RenderCamera& camera) {
+Result<CoarseRatio> CoarseRatio::Create(const RenderCamera& camera, bool blended) {
   CoarseRatio coarse;
   coarse.camera_ = CoarserBy(kStep_px, camera);
   PLEINAIR_ASSIGN_OR_RETURN(
       coarse.targets_,
-      RenderTargets::Create(coarse.camera_.width, coarse.camera_.height, false, true));
+      RenderTargets::Create(coarse.camera_.width, coarse.camera_.height, {.blended = blended}));
   coarse.values_ = Image<float>(coarse.camera_.width, coarse.camera_.height, 3);
   return coarse;
 }

@@ -22,8 +22,9 @@ class CoarseRatio {
   static constexpr int kStep_px = 4;  ///< Render pixels per pixel of the grid, along each axis.
 
   CoarseRatio() = default;
-  /// For the render targets of `camera`. Errors as RenderTargets::Create().
-  static Result<CoarseRatio> Create(const RenderCamera& camera);
+  /// For the render targets of `camera`. `blended`: SceneMaterials::HasBlended(). Errors as
+  /// RenderTargets::Create().
+  static Result<CoarseRatio> Create(const RenderCamera& camera, bool blended);
 
   /// Max. difference of adjacent grid values that are interpolated. It bounds the error of the
   /// ratio on surfaces as wide as a grid pixel: two 8-bit steps at white (sRGB), fewer at darker

@@ -21,11 +21,10 @@ int RenderTargets::SamplesGiven() {
   return samples;
 }
 
-Result<RenderTargets> RenderTargets::Create(int width, int height, bool detailed,
-                                            bool multisampled) {
+Result<RenderTargets> RenderTargets::Create(int width, int height, const Content& content) {
   const int samples = SamplesGiven();
   RenderTargets targets;
-  targets.multisampled_ = multisampled;
+  targets.content_ = content;
   const auto create_samples = [&](GLenum format) {
     return gl::GlTexture::Create2DMultisample(format, width, height, samples);
   };
@@ -45,7 +44,7 @@ Result<RenderTargets> RenderTargets::Create(int width, int height, bool detailed
       gl::GlFramebuffer::Create({{{&targets.samples_.ids}}, {&targets.samples_.depth}}));
   gl::FramebufferAttachments with_texels{{{&targets.samples_.ids}, {&targets.samples_.texels}},
                                          {&targets.samples_.depth}};
-  if (detailed) {
+  if (content.detailed) {
     for (gl::GlTexture* texels : {&targets.samples_.gradients, &targets.samples_.emissions}) {
       PLEINAIR_ASSIGN_OR_RETURN(*texels, create_samples(kSampledFormats[1]));
       with_texels.colors.push_back({texels});
@@ -55,9 +54,13 @@ Result<RenderTargets> RenderTargets::Create(int width, int height, bool detailed
                             gl::GlFramebuffer::Create(with_texels));
   PLEINAIR_ASSIGN_OR_RETURN(targets.framebuffers_.sort,
                             gl::GlFramebuffer::Create({{{&targets.seen_}}, {&targets.kinds_}}));
-  PLEINAIR_ASSIGN_OR_RETURN(
-      targets.framebuffers_.objects,
-      gl::GlFramebuffer::Create({{{&targets.picture_.objects}}, {&targets.kinds_}}));
+  gl::FramebufferAttachments of_objects{{{&targets.picture_.objects}}, {&targets.kinds_}};
+  if (content.blended) {
+    PLEINAIR_ASSIGN_OR_RETURN(targets.sample_weights_,
+                              gl::GlTexture::Create2D(GL_R16F, width, height));
+    of_objects.colors.push_back({&targets.sample_weights_});
+  }
+  PLEINAIR_ASSIGN_OR_RETURN(targets.framebuffers_.objects, gl::GlFramebuffer::Create(of_objects));
   PLEINAIR_ASSIGN_OR_RETURN(
       targets.framebuffers_.ratio,
       gl::GlFramebuffer::Create({{{&targets.picture_.ratio}}, {&targets.kinds_}}));
@@ -71,12 +74,14 @@ Result<RenderTargets> RenderTargets::Create(int width, int height, bool detailed
   PLEINAIR_ASSIGN_OR_RETURN(
       targets.framebuffers_.pass_back,
       gl::GlFramebuffer::Create({{{&targets.picture_.ratio}, {&targets.picture_.objects}}, {}}));
+  // Targets that no objects are drawn into have weights, too.
+  if (content.blended) targets.BeginObjects();
   return targets;
 }
 
 void RenderTargets::BeginSurfaces() const {
   // Without it, all samples of a pixel are those of its center.
-  (multisampled_ ? glEnable : glDisable)(GL_MULTISAMPLE);
+  (content_.multisampled ? glEnable : glDisable)(GL_MULTISAMPLE);
   framebuffers_.ids.Bind();
   framebuffers_.ids.ClearUnsigned(0, 0);
   framebuffers_.ids.ClearDepth(1.0F);
@@ -91,6 +96,9 @@ void RenderTargets::BeginSorting() const { framebuffers_.sort.Bind(); }
 void RenderTargets::BeginObjects() const {
   framebuffers_.objects.Bind();
   framebuffers_.objects.ClearColor(0, 0, 0, 0, 0);
+  if (content_.blended) {
+    framebuffers_.objects.ClearColor(1, 1.0F / static_cast<float>(samples()), 0, 0, 0);
+  }
 }
 
 void RenderTargets::BeginRatio(std::span<const PixelRect> drawn) const {

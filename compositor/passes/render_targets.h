@@ -13,10 +13,13 @@ namespace pleinair::compositor {
 /// surfaces is evaluated once per pixel and visible surface.
 class RenderTargets {
  public:
+  struct Content {
+    bool detailed = false;     ///< Also gradients() and emissions(), drawn with the texels.
+    bool blended = false;      ///< Also sample_weights(), drawn with the objects.
+    bool multisampled = true;  ///< Several samples per pixel, else its center alone.
+  };
   /// Errors (system): a size or format that the renderer does not support.
-  /// `detailed`: also gradients() and emissions(), drawn with the texels.
-  /// `multisampled`: several samples per pixel, else its center alone.
-  static Result<RenderTargets> Create(int width, int height, bool detailed, bool multisampled);
+  static Result<RenderTargets> Create(int width, int height, const Content& content);
 
   /// Directs drawing to the triangle numbers, one per sample, and their depth; cleared to 0.
   void BeginSurfaces() const;
@@ -26,6 +29,7 @@ class RenderTargets {
   /// Directs drawing to the classification of the triangle numbers, once per pixel, and its depth.
   void BeginSorting() const;
   /// Directs drawing to objects(): premultiplied display-linear color with coverage, cleared to 0.
+  /// If blended, also to sample_weights() (color 1), cleared to those of pixels without objects.
   /// Uses the depth of the classification.
   void BeginObjects() const;
   /// Directs drawing to the shadow-catcher ratio, cleared to 1, with alpha 0 outside `drawn`. Uses
@@ -45,12 +49,14 @@ class RenderTargets {
   static int SamplesGiven();
 
   /// Samples per pixel that are drawn.
-  int samples() const { return multisampled_ ? samples_.ids.samples() : 1; }
+  int samples() const { return content_.multisampled ? samples_.ids.samples() : 1; }
   const gl::GlTexture& ids() const { return samples_.ids; }
   const gl::GlTexture& texels() const { return samples_.texels; }
   /// Bumps of the surface (shaders/surface_gradient.glsl) and texels of its emission, per sample.
   const gl::GlTexture& gradients() const { return samples_.gradients; }
   const gl::GlTexture& emissions() const { return samples_.emissions; }
+  /// Weight of each sample of a pixel that shows no object (shaders/uncovered_samples.glsl).
+  const gl::GlTexture& sample_weights() const { return sample_weights_; }
   const gl::GlTexture& seen() const { return seen_; }
   const gl::GlTexture& ratio() const { return picture_.ratio; }
   const gl::GlTexture& objects() const { return picture_.objects; }
@@ -72,10 +78,10 @@ class RenderTargets {
   };
 
   Samples samples_;
-  gl::GlTexture seen_, kinds_;
+  gl::GlTexture seen_, kinds_, sample_weights_;
   VirtualPicture picture_, passed_;
   Framebuffers framebuffers_;
-  bool multisampled_ = true;
+  Content content_;
 };
 
 }  // namespace pleinair::compositor

@@ -4,7 +4,7 @@
 
 namespace pleinair::compositor {
 
-Result<ShadowRatioPass> ShadowRatioPass::Create() {
+Result<ShadowRatioPass> ShadowRatioPass::Create(bool blended) {
   ShadowRatioPass pass;
   PLEINAIR_ASSIGN_OR_RETURN(
       pass.id_program_, gl::GlProgram::Create({.vertex = "compositor/shaders/scene_surface.vert",
@@ -15,8 +15,9 @@ Result<ShadowRatioPass> ShadowRatioPass::Create() {
                              .fragment = "compositor/shaders/affected_pixels.frag"}));
   gl::ProgramStages linear_ratio{.vertex = "compositor/shaders/screen_triangle.vert",
                                  .fragment = "compositor/shaders/linear_shadow_ratio.frag"};
+  if (blended) linear_ratio.defines.emplace_back("BLENDED");
   PLEINAIR_ASSIGN_OR_RETURN(pass.linear_program_, gl::GlProgram::Create(linear_ratio));
-  linear_ratio.defines = {"AIRLIGHT"};
+  linear_ratio.defines.emplace_back("AIRLIGHT");
   PLEINAIR_ASSIGN_OR_RETURN(pass.linear_program_with_airlight_,
                             gl::GlProgram::Create(linear_ratio));
   pass.no_attributes_ = gl::GlVertexArray::Create();
@@ -49,6 +50,7 @@ void ShadowRatioPass::Begin(const RenderTargets& targets, const SceneSurfaces& s
   glDepthFunc(GL_EQUAL);
   glDepthMask(GL_FALSE);
   targets.seen().Bind(0);
+  if (targets.sample_weights()) targets.sample_weights().Bind(18);
 }
 
 void ShadowRatioPass::Shade(const RenderTargets& targets, const FrameUniforms& frame,

@@ -20,8 +20,8 @@ namespace pleinair::compositor {
 class ShadowRatioPass {
  public:
   ShadowRatioPass() = default;
-  /// Errors as gl::GlProgram::Create.
-  static Result<ShadowRatioPass> Create();
+  /// `blended`: SceneMaterials::HasBlended(). Errors as gl::GlProgram::Create.
+  static Result<ShadowRatioPass> Create(bool blended);
 
   /// Draws the triangle numbers of the real surfaces into the samples, and their depth. Draw()
   /// omits surfaces that objects later cover. `within` bounds what Draw() draws.
@@ -41,9 +41,9 @@ class ShadowRatioPass {
   /// Shades the surfaces of DrawSurfaces(), after the objects are drawn. `within`: all pixels that
   /// the objects may affect, in disjoint rectangles. Requires
   /// CameraPicture::BindForShading(2, 3, 4), bound shadow maps, the sun transmittance map at unit
-  /// 5, GL_DEPTH_TEST enabled and GL_CULL_FACE disabled. Binds its own textures to units 0, 1, 6
-  /// and 7. Afterwards depth writes are on, depth tests use GL_LESS, and blending and the scissor
-  /// test are off.
+  /// 5, GL_DEPTH_TEST enabled and GL_CULL_FACE disabled. Binds its own textures to units 0, 1, 6,
+  /// 7 and 18. Afterwards depth writes are on, depth tests use GL_LESS, and blending and the
+  /// scissor test are off.
   void Draw(const RenderTargets& targets, const SceneSurfaces& surfaces,
             const SurfacePrograms& programs, const FrameUniforms& frame,
             const ShadowOptions& options, std::span<const PixelRect> within) const;

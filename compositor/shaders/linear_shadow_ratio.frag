@@ -1,13 +1,13 @@
 #version 450 core
 // Shadow-catcher ratio as in shadow_ratio.frag, for triangles with known sun visibility:
 // AffectedTriangles::kLinearSky of compositor/surfaces/affected_triangles.h. AIRLIGHT: the airlight
-// in front of the surface is noticeable.
+// in front of the surface is noticeable. BLENDED: some objects are seen through.
 
 #include "compositor/shaders/aerial_perspective.glsl"
 #include "compositor/shaders/linear_shadow_ratio.glsl"
+#include "compositor/shaders/uncovered_samples.glsl"
 #include "compositor/shaders/visibility_buffer_layout.glsl"
 
-uniform float u_samples;  // Per pixel.
 uniform vec3 u_eye_m;     // Centre of projection, marker coordinates.
 uniform vec3 u_ray;       // As in visible_surface.glsl.
 uniform vec3 u_ray_x;
@@ -40,7 +40,6 @@ void main() {
     samples += count;
     seen = uvec4(seen.yzw, 0u);
   } while (seen.x != 0u);
-  // The other samples show unaffected surfaces or objects.
-  out_ratio = vec4((ratio + (u_samples - samples)) / u_samples, 1.0);
-  WriteAirlight(airlight / u_samples);
+  out_ratio = vec4(RatioOfPixel(ratio, samples), 1.0);
+  WriteAirlight(SampleWeight() * airlight);
 }

@@ -3,17 +3,17 @@
 // is in front. Each component of a surface (affected_pixels.frag) is shaded once. SUN_MAY_CHANGE or
 // SKY_CHANGES selects the kind of change: compositor/surfaces/affected_triangles.h.
 // linear_shadow_ratio.frag handles triangles that need no shadow lookup. AIRLIGHT: the airlight in
-// front of the surface is noticeable.
+// front of the surface is noticeable. BLENDED: some objects are seen through.
 
 #include "compositor/shaders/aerial_perspective.glsl"
 #include "compositor/shaders/differential.glsl"
+#include "compositor/shaders/uncovered_samples.glsl"
 #include "compositor/shaders/visible_surface.glsl"
 #ifndef SHADOW_SETS
 #define SHADOW_SETS 2  // 0: phantoms alone, 1: with the virtual objects.
 #endif
 #include "shadows/shaders/shadow_visibility.glsl"
 
-uniform float u_samples;  // Per pixel.
 uniform vec3 u_to_sun;          // Unit, marker coordinates.
 uniform vec3 u_sun_normal_lux;  // Linear Rec.709.
 
@@ -99,7 +99,6 @@ void main() {
     samples += count;
     seen = uvec4(seen.yzw, 0u);
   } while (seen.x != 0u);
-  // The other samples show unaffected surfaces or objects.
-  out_ratio = vec4((ratio + (u_samples - samples)) / u_samples, 1.0);
-  WriteAirlight(airlight / u_samples);
+  out_ratio = vec4(RatioOfPixel(ratio, samples), 1.0);
+  WriteAirlight(SampleWeight() * airlight);
 }

@@ -5,7 +5,8 @@
 //
 // TEXTURED: triangle_id.frag sampled textures. DETAILED: and bumps and emission; some objects may be
 // unlit. Needs TEXTURED and GLOSSY. TRANSLUCENT: some transmit light, or are leaves. Needs DETAILED.
-// BLENDED: some are seen through. Needs TEXTURED. GLOSSY: some objects are glossy. This is a
+// BLENDED: some are seen through, and the weights of the samples beside objects are written. Needs
+// TEXTURED. GLOSSY: some objects are glossy. This is a
 // permutation, not a test, because Mesa's software renderer executes an `if` regardless of its
 // condition.
 
@@ -51,6 +52,9 @@ layout(binding = 17) uniform sampler2DMS u_emissions;
 #endif
 
 layout(location = 0) out vec4 out_color;
+#ifdef BLENDED
+layout(location = 1) out float out_sample_weight;  // uncovered_samples.glsl.
+#endif
 
 #ifdef TEXTURED
 // Multiplies the material by its textures: the mean of the samples that show the piece.
@@ -309,6 +313,7 @@ void main() {
   uvec4 seen = texelFetch(u_visible, ivec2(gl_FragCoord.xy), 0);
   vec4 sum = vec4(0.0);
 #ifdef BLENDED
+  float covered = 0.0;
   vec4 shares = SharesOf(seen);
 #endif
   do {
@@ -351,6 +356,7 @@ void main() {
 #endif
 #ifdef BLENDED
     sum += shares.x * vec4(color, 1.0);
+    covered += dot(samples, vec4(1.0));
     shares = vec4(shares.yzw, 0.0);
 #else
     sum += dot(samples, vec4(1.0)) / u_samples * vec4(color, 1.0);
@@ -358,4 +364,7 @@ void main() {
     seen = uvec4(seen.yzw, 0u);
   } while (seen.x != 0u);
   out_color = sum;
+#ifdef BLENDED
+  out_sample_weight = (1.0 - sum.a) / max(u_samples - covered, 1.0);
+#endif
 }

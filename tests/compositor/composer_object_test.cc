@@ -130,66 +130,6 @@ TEST(Composer, SeparatesMetalFromPaintByTheTexture) {
   EXPECT_NEAR(SeenAt(composed, {0.3, 0, 0.1}), Level(0.7), 0.01);
 }
 
-/// Share of the background light that a scene of black surfaces transmits; mean over the centre of
-/// the image.
-double LetThrough(const std::vector<PlacedModel>& scene, const CameraModel& camera = kCamera) {
-  constexpr std::uint8_t kBehind = 200;
-  RgbImage picture(camera.width, camera.height, 3);
-  std::fill_n(picture.data(), picture.size(), kBehind);
-  const RgbImage composed = Compose(scene, picture, camera);
-  double sum = 0.0;
-  const int half = camera.width / 20, middle_x = camera.width / 2, middle_y = camera.height / 2;
-  for (int y = middle_y - half; y < middle_y + half; ++y) {
-    for (int x = middle_x - half; x < middle_x + half; ++x) {
-      sum += LinearFromSrgb8()[composed(x, y, 1)];
-    }
-  }
-  return sum / (4 * half * half) / LinearFromSrgb8()[kBehind];
-}
-
-TEST(Composer, ShowsThroughGlassWhatLiesBehind) {
-  const auto pane = [](float opacity, float height, Material::Alpha alpha) {
-    Model glass = MakeBox({-0.5, -0.5, height}, {0.5, 0.5, height}, 0.0F);
-    glass.materials[0].opacity = opacity;
-    glass.materials[0].alpha = alpha;
-    return Place(glass, false);
-  };
-  using Alpha = Material::Alpha;
-  for (const float opacity : {0.1F, 0.3F, 0.5F, 0.9F}) {
-    EXPECT_NEAR(LetThrough({pane(opacity, 0.1F, Alpha::kBlended)}), 1.0F - opacity, 0.02);
-  }
-  // The samples of the first pane must not hide the second.
-  const double both =
-      LetThrough({pane(0.5F, 0.1F, Alpha::kBlended), pane(0.5F, 0.3F, Alpha::kBlended)});
-  EXPECT_NEAR(both, 0.25, 0.03);
-  EXPECT_EQ(LetThrough({pane(0.3F, 0.1F, Alpha::kIgnored)}), 0.0);
-  EXPECT_EQ(LetThrough({pane(0.3F, 0.1F, Alpha::kCutout)}), 1.0);
-}
-
-TEST(Composer, DrawsGlassWithoutAPattern) {
-  Model glass = MakeBox({-0.5, -0.5, 0.1}, {0.5, 0.5, 0.1}, 0.0F);
-  glass.materials[0].opacity = 0.3F;
-  glass.materials[0].alpha = Material::Alpha::kBlended;
-  constexpr std::uint8_t kBehind = 200;
-  const RgbImage composed = Compose({Place(glass, false)}, EvenPicture(kBehind));
-  const int middle_x = composed.width() / 2, middle_y = composed.height() / 2;
-  const double expected = 0.7 * LinearFromSrgb8()[kBehind];
-  for (int y = middle_y - 12; y < middle_y + 12; ++y) {
-    for (int x = middle_x - 12; x < middle_x + 12; ++x) {
-      EXPECT_NEAR(LinearFromSrgb8()[composed(x, y, 1)], expected, 0.01) << x << ", " << y;
-    }
-  }
-}
-
-TEST(Composer, DrawsWhatCastsNoShadow) {
-  // Thin glass as in a model, alone in the scene.
-  Model pane = MakeBox({-0.5, -0.5, 0.1}, {0.5, 0.5, 0.1}, 0.0F);
-  pane.materials[0].opacity = 0.3F;
-  pane.materials[0].alpha = Material::Alpha::kBlended;
-  pane.meshes[0].role = MeshRole::kRenderOnly;
-  EXPECT_NEAR(LetThrough({Place(pane, false)}), 0.7, 0.02);
-}
-
 TEST(Composer, DrawsTheEdgesOfHolesAsFineAsThoseOfSurfaces) {
   // Position of a hole's edge in pixels, from the coverage of a row of pixels. The square moves by
   // fractions of a pixel.

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -134,6 +135,24 @@ inline const double kLevelLux = kSkyLux + kSunLux * std::numbers::sqrt2 / 2;
 /// Linear value of a level face with this reflectance.
 inline double Level(double albedo) {
   return kExposureScale * albedo * kLevelLux * std::numbers::inv_pi;
+}
+
+/// Share of the background light that a scene of black surfaces transmits; mean over the centre of
+/// the image.
+inline double LetThrough(const std::vector<PlacedModel>& scene,
+                         const CameraModel& camera = kCamera) {
+  constexpr std::uint8_t kBehind = 200;
+  RgbImage picture(camera.width, camera.height, 3);
+  std::fill_n(picture.data(), picture.size(), kBehind);
+  const RgbImage composed = Compose(scene, picture, camera);
+  double sum = 0.0;
+  const int half = camera.width / 20, middle_x = camera.width / 2, middle_y = camera.height / 2;
+  for (int y = middle_y - half; y < middle_y + half; ++y) {
+    for (int x = middle_x - half; x < middle_x + half; ++x) {
+      sum += LinearFromSrgb8()[composed(x, y, 1)];
+    }
+  }
+  return sum / (4 * half * half) / LinearFromSrgb8()[kBehind];
 }
 
 /// Draws the scene in the southern sun without a test for unmodelled shadows. Pixels that no object

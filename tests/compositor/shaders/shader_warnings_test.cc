@@ -63,12 +63,15 @@ TEST_F(ShaderWarnings, AreNoneOfSurfaces) {
     for (const bool needs_airlight : {false, true}) {
       for (const bool textured : {false, true}) {
         for (const bool glossy : {false, true}) {
-          ExpectCreated(SurfacePrograms::Create(
-              options, {.needs_airlight = needs_airlight, .textured = textured, .glossy = glossy}));
+          ExpectCreated(SurfacePrograms::Create(options, {.needs_airlight = needs_airlight,
+                                                          .textured = textured,
+                                                          .blended = textured && glossy,
+                                                          .glossy = glossy}));
         }
       }
       ExpectCreated(SurfacePrograms::Create(options, {.needs_airlight = needs_airlight,
                                                       .textured = true,
+                                                      .blended = needs_airlight,
                                                       .detailed = true,
                                                       .translucent = true,
                                                       .glossy = true}));
@@ -83,7 +86,7 @@ TEST_F(ShaderWarnings, AreNoneOfPassesAndPicture) {
     }
   }
   ExpectCreated(PlaceMean::Create(32, 24, {AntialiasingMethod::kReference, 4}));
-  ExpectCreated(ShadowRatioPass::Create());
+  for (const bool blended : {false, true}) ExpectCreated(ShadowRatioPass::Create(blended));
   ExpectCreated(ShadowDebugView::Create(SmallMaps(shadows::ShadowMethod::kSunDisc), 32, 24));
   const CameraModel camera{.width = 32, .height = 24, .fx = 30, .fy = 30, .cx = 15.5, .cy = 11.5};
   const RenderCamera render = FitRenderCamera(camera, 1.0);
