@@ -55,14 +55,16 @@ uniform float u_opacity;
 uniform float u_alpha_cutoff;
 uniform int u_samples;  // Per pixel, 4 at most.
 uniform int u_surface;  // Unique per surface.
+uniform int u_pane;     // Number among blended surfaces, equal for both sides of one.
 
 // Blended surfaces below this alpha cover half of the samples, and what they show is weighted by
 // alpha (virtual_object.frag).
 const float kMaxBlended = 0.995;
 
 // Two of four samples. Two surfaces behind each other each hide a sample of their own, and what is
-// behind both keeps one.
-int SamplesOfBlended() { return 8 | 1 << (u_surface % 3); }
+// behind both keeps one. Of three, each hides one, and what is behind them none; a fourth has the
+// samples of the first.
+int SamplesOfBlended() { return 8 | 1 << (u_pane % 3); }
 
 float AlphaAt(vec2 uv, vec2 step_x, vec2 step_y) {
   float alpha = u_opacity * textureGrad(u_base_color_texture, uv, step_x, step_y).a;

@@ -34,6 +34,23 @@ void SetDetail(const MaterialDetail& detail, bool is_back, const gl::GlProgram& 
                  program);
 }
 
+/// Numbers the blended surfaces as they are drawn: one number for both sides of one.
+class PaneNumbers {
+ public:
+  int Next(const SurfaceBuffers& surface) {
+    const bool is_other_side = last_ != nullptr && last_->is_back() != surface.is_back() &&
+                               last_->placed_model() == surface.placed_model() &&
+                               last_->material() == surface.material();
+    if (!is_other_side) ++number_;
+    last_ = is_other_side ? nullptr : &surface;
+    return number_;
+  }
+
+ private:
+  const SurfaceBuffers* last_ = nullptr;
+  int number_ = -1;
+};
+
 /// True without colors of vertices, too.
 bool HasOneColor(const std::vector<VertexDetail>& details) {
   return std::ranges::all_of(
@@ -222,6 +239,7 @@ Result<void> SceneSurfaces::SortObjects(const glm::vec3& to_sun) {
 
 void SceneSurfaces::DrawObjects(const gl::GlProgram& program) const {
   std::size_t object = 0;
+  PaneNumbers panes;
   program.Set("u_step", 1);
   const bool detailed = materials_.HasDetails();
   // Meshes without vertex details are white.
@@ -234,6 +252,7 @@ void SceneSurfaces::DrawObjects(const gl::GlProgram& program) const {
     program.Set("u_opacity", material.opacity);
     program.Set("u_alpha_cutoff", material.alpha_cutoff);
     program.Set("u_surface", static_cast<int>(object));
+    if (material.alpha == Material::Alpha::kBlended) program.Set("u_pane", panes.Next(surface));
     program.Set("u_marker_from_lit", glm::mat4(placement_.MovedBy(surface.placed_model())));
     program.Set("u_first_id", object_buffer_.first_id(object));
     if (detailed) SetDetail(material.detail, surface.is_back(), program);
