@@ -76,13 +76,15 @@ MaterialRecord Textured(MaterialRecord record, vec4 samples) {
 #endif
 
 #ifdef BLENDED
-// Share of the pixel of each piece. Blended surfaces lie over the others with their alpha. They
-// cover two samples of a pixel that they fill; another one before them may hide one of the two.
+// Share of the pixel of each piece. Blended surfaces lie over the others with their alpha. A pane
+// covers two samples of a pixel that it fills; another one before it may hide one of the two. Pieces
+// of one pane lie side by side. So do all blended pieces that show no more samples than one pane.
 vec4 SharesOf(uvec4 seen) {
-  vec4 sizes = vec4(0.0), alphas = vec4(0.0);
+  vec4 sizes = vec4(0.0), alphas = vec4(0.0), surfaces = vec4(0.0);
   for (int k = 0; k < 4; ++k) {
     vec4 samples = SamplesOf(seen[k]);
     sizes[k] = dot(samples, vec4(1.0));
+    surfaces[k] = ValueOfComponent(int(ComponentOf(TriangleOf(IdOf(seen[k])))));
     for (int i = 0; i < int(u_samples); ++i) {
       alphas[k] += samples[i] * AlphaOfCode(texelFetch(u_texels, ivec2(gl_FragCoord.xy), i).a);
     }
@@ -90,14 +92,25 @@ vec4 SharesOf(uvec4 seen) {
   alphas /= max(sizes, vec4(1.0));
   vec4 blends = vec4(lessThan(alphas, vec4(0.999))) * vec4(greaterThan(sizes, vec4(0.0)));
   float blended = dot(sizes, blends);
-  vec4 hides = blends * alphas * (blended > 2.5 ? min(sizes, vec4(1.0)) : 0.5 * sizes);
-  vec4 shares = hides;
-  float left = 1.0;
+  bool overlap = blended > 2.5;
+  vec4 panes = vec4(0.0), hides = vec4(0.0);  // Samples of a piece's pane, and what the pane hides.
   for (int k = 0; k < 4; ++k) {
-    left *= 1.0 - hides[k];
-    for (int other = 0; other < 4; ++other) {
-      bool before = sizes[other] > sizes[k] || (sizes[other] == sizes[k] && other < k);
-      shares[k] *= before ? 1.0 - hides[other] : 1.0;
+    vec4 own = blends * sizes * vec4(equal(surfaces, vec4(surfaces[k])));
+    panes[k] = dot(own, vec4(1.0));
+    hides[k] = dot(own, alphas) / max(panes[k], 1.0) * min(panes[k], 1.0);
+  }
+  vec4 shares = blends * alphas * sizes * (overlap ? 1.0 / max(panes, vec4(1.0)) : vec4(0.5));
+  float left = overlap ? 1.0 : 1.0 - dot(shares, vec4(1.0));
+  for (int other = 0; other < 4; ++other) {
+    bool counted = !overlap || blends[other] == 0.0;
+    for (int k = 0; k < other; ++k) {
+      counted = counted || (blends[k] > 0.0 && surfaces[k] == surfaces[other]);
+    }
+    left *= counted ? 1.0 : 1.0 - hides[other];
+    for (int k = 0; k < 4; ++k) {
+      bool before = panes[other] > panes[k] ||
+                    (panes[other] == panes[k] && surfaces[other] < surfaces[k]);
+      shares[k] *= !counted && before ? 1.0 - hides[other] : 1.0;
     }
   }
   return shares + (1.0 - blends) * sizes * left / max(u_samples - blended, 1.0);
