@@ -18,6 +18,9 @@ constexpr std::size_t kPlacesPerBlock = 32;
 constexpr float kMaxRaysBesideRest = 512.0F, kMaxRaysBesideMoving = 48.0F;
 // Effective rays of a vertex from which on the sunlight that is missing is taken off as a whole.
 constexpr float kShadedRays = 128.0F;
+// Share of the sunlight missing until a movement that each frame keeps, and below which none is
+// left.
+constexpr float kFadeOut = 0.8F, kMinFading_lux = 0.5F;
 // Path of the bodies after which older rays no longer count, relative to the distance.
 constexpr double kForgetShare = 0.05, kMinForget_m = 5e-3, kRestPath_m = 1e-3;
 // Vertices next to the bodies: within this distance of the sphere around them.
@@ -36,8 +39,19 @@ ContactLight::ContactLight(std::span<const LitMesh> still) : still_(still) {
   for (const LitMesh& mesh : still) changes_.emplace_back(mesh.positions.size());
 }
 
+void ContactLight::FadeShaded() {
+  for (const auto& [m, v] : near_) {
+    Change& change = changes_[m][v];
+    if (change.shaded_rays == 0.0F || path_m_ - change.path_m < kRestPath_m) continue;
+    const float share = std::min(1.0F, change.shaded_rays / kShadedRays);
+    for (std::size_t c = 0; c < 3; ++c) change.fading[c] += share * change.shaded[c];
+    change.shaded_rays = 0.0F;
+  }
+}
+
 void ContactLight::FollowBodies(std::span<const LitMesh> bodies, double moved_m) {
   path_m_ += moved_m;
+  FadeShaded();
   Vec3 low{1e30, 1e30, 1e30}, high{-1e30, -1e30, -1e30};
   for (const LitMesh& body : bodies) {
     for (const auto& [x, y, z] : body.positions) {
@@ -77,7 +91,10 @@ void ContactLight::FollowBodies(std::span<const LitMesh> bodies, double moved_m)
 
 void ContactLight::Forget() {
   for (auto& mesh : changes_) {
-    for (Change& change : mesh) change.rays = change.shaded_rays = 0.0F;
+    for (Change& change : mesh) {
+      change.rays = change.shaded_rays = 0.0F;
+      change.fading = {};
+    }
   }
 }
 
@@ -149,9 +166,7 @@ void ContactLight::Trace(const Surroundings& surroundings, std::size_t index) {
   const float most = moved_m < kRestPath_m ? kMaxRaysBesideRest
                      : moved_m < forget_m  ? kMaxRaysBesideMoving
                                            : kRays;
-  if (moved_m >= kRestPath_m) {
-    change.shaded_rays = 0.0F;
-  } else if (may_see) {
+  if (moved_m < kRestPath_m && may_see) {
     TraceShaded(surroundings, origin, normal, Hash(Hash(v, m), change.round), &change);
   }
   change.rays = std::min(change.rays, most - kRays) + kRays;
@@ -191,10 +206,11 @@ void ContactLight::Light(std::span<LitMesh> drawn) {
   left_.clear();
   for (const auto& [m, v] : near_) {
     const LitMesh& mesh = still_[m];
-    const Change& change = changes_[m][v];
+    Change& change = changes_[m][v];
     const float share = std::min(1.0F, change.shaded_rays / kShadedRays);
     for (std::size_t c = 0; c < 3; ++c) {
-      const float shaded = share * change.shaded[c];
+      const float shaded = share * change.shaded[c] + change.fading[c];
+      change.fading[c] *= change.fading[c] > kMinFading_lux ? kFadeOut : 0.0F;
       const float light = std::max(0.0F, mesh.ambient_with[v][c] + change.light[c] - shaded);
       drawn[m].ambient_with[v][c] = light;
       if (mesh.sunlight.reflected_with.empty()) continue;

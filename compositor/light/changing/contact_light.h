@@ -23,6 +23,7 @@ namespace pleinair::compositor {
 ///
 /// Beside bodies at rest, other rays find the sunlight that still surfaces no longer reflect to the
 /// vertex, because a body shades them. It fades in: few rays of so strong a light would flicker.
+/// Where a body moves again, it fades out within half a second at 25 frames a second.
 class ContactLight {
  public:
   /// `still`: the surfaces in their light without the bodies. It must outlive this object.
@@ -38,7 +39,8 @@ class ContactLight {
   std::size_t size() const { return near_.size(); }
   /// Forgets all rays: the next ones count alone.
   void Forget();
-  /// Sets the light of `drawn`, copies of the still surfaces, to that with the bodies.
+  /// Sets the light of `drawn`, copies of the still surfaces, to that with the bodies. Once a
+  /// frame.
   void Light(std::span<LitMesh> drawn);
 
   static constexpr double kReach_m = 3.0;
@@ -55,6 +57,7 @@ class ContactLight {
   struct Change {
     std::array<float, 3> light{}, sunlight{};
     std::array<float, 3> shaded{};  ///< Reflected sunlight that is missing.
+    std::array<float, 3> fading{};  ///< The same of the bodies' last rest.
     float rays = 0.0F, shaded_rays = 0.0F;
     std::uint32_t round = 0;
     double path_m = 0.0;  ///< ContactLight::path_m_ at the last refresh.
@@ -65,6 +68,8 @@ class ContactLight {
   };
   void Refresh(const Surroundings& surroundings, std::size_t vertices, Turns* turns);
   void Trace(const Surroundings& surroundings, std::size_t index);
+  /// Starts to fade the missing sunlight where the bodies have moved since a vertex' last refresh.
+  void FadeShaded();
   /// Traces `change.shaded` at a vertex.
   static void TraceShaded(const Surroundings& surroundings, Vec3 origin, Vec3 normal,
                           std::uint32_t seed, Change* change);
