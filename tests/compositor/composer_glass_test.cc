@@ -1,7 +1,9 @@
 // Tests glass and other blended surfaces.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -75,32 +77,80 @@ class HazySunOverGlass : public SouthernSun {
 };
 
 TEST(Composer, ShowsAShadowThroughGlassAsDarkAsBesideIt) {
-  // The cube's shadow lies north of it. In fog, the black pane has the airlight before it.
-  const Vec3 in_shadow{0, 0.3, 0};
-  const SouthernSun clear;
-  const HazySunOverGlass hazy;
-  const auto seen = [&](const std::vector<PlacedModel>& scene, const SouthernSun& day) {
+  // The cube's shadow lies north of it, below three panes. In fog, a black pane has the airlight
+  // before it.
+  const std::array<float, 3> opacities{0.1F, 0.5F, 0.9F};
+  const auto place_of = [](std::size_t pane) {
+    return Vec3{0.1 * static_cast<double>(pane) - 0.1, 0.3, 0.0};
+  };
+  const auto compose = [&](const std::array<const SouthernSun*, 2>& days, bool with_panes) {
+    std::vector<PlacedModel> scene{kGround, kCube};
+    for (std::size_t i = 0; with_panes && i < opacities.size(); ++i) {
+      const double x = place_of(i).x;
+      scene.push_back(
+          Place(BlackPane(opacities[i], {x - 0.049, 0.1, 0.4}, {x + 0.049, 0.5, 0.4}), false));
+    }
     const auto solver = LightSolver::Create(scene, {.rays_per_vertex = 64});
     const auto composer = Composer::Create(kCamera, scene, {});
-    EXPECT_TRUE(composer.value()->SetLight(solver.value()->Solve(day, Mat3{}), day, Mat3{},
-                                           solver.value()->RadianceFromBelow(day, Mat3{})));
     composer.value()->AssumeUnmodelledShadows(false);
-    const auto composed = composer.value()->Compose(
-        EvenPicture(200).view(), kFromAbove, {kExposureScale, kExposureScale, kExposureScale});
-    return SeenAt(composed.value(), in_shadow);
+    const auto lit = solver.value()->Solve(*days[0], Mat3{});
+    std::array<RgbImage, 2> images;
+    for (std::size_t i = 0; i < days.size(); ++i) {
+      EXPECT_TRUE(composer.value()->SetLight(lit, *days[i], Mat3{}, {1, 1, 1}));
+      images[i] = composer.value()
+                      ->Compose(EvenPicture(200).view(), kFromAbove,
+                                {kExposureScale, kExposureScale, kExposureScale})
+                      .value();
+    }
+    return images;
   };
-  const double lit = LinearFromSrgb8()[200];
-  const double before_pane =
-      kExposureScale * HazySunOverGlass::kAirlight * (1.0 - std::exp2(-2.5 / 8.0));
-  const double shadow = seen({kGround, kCube}, clear), hazy_shadow = seen({kGround, kCube}, hazy);
-  ASSERT_LT(shadow, 0.3 * lit);
-  ASSERT_GT(hazy_shadow, shadow + 0.02);
-  for (const float opacity : {0.1F, 0.5F, 0.9F}) {
-    const PlacedModel pane = Place(BlackPane(opacity, {-0.5, 0.2, 0.5}, {0.5, 0.5, 0.5}), false);
-    EXPECT_NEAR(seen({kGround, kCube, pane}, clear), (1.0 - opacity) * shadow, 0.006) << opacity;
-    EXPECT_NEAR(seen({kGround, kCube, pane}, hazy),
-                (1.0 - opacity) * hazy_shadow + opacity * before_pane, 0.006)
-        << opacity;
+  const SouthernSun clear;
+  const HazySunOverGlass hazy;
+  const double air = kExposureScale * HazySunOverGlass::kAirlight * (1.0 - std::exp2(-2.6 / 8.0));
+  const auto beside = compose({&clear, &hazy}, false), through = compose({&clear, &hazy}, true);
+  for (const bool in_haze : {false, true}) {
+    const std::size_t day = in_haze ? 1 : 0;
+    for (std::size_t i = 0; i < opacities.size(); ++i) {
+      const double shadow = SeenAt(beside[day], place_of(i));
+      EXPECT_LT(shadow, 0.4 * LinearFromSrgb8()[200]);
+      EXPECT_NEAR(SeenAt(through[day], place_of(i)),
+                  (1.0 - opacities[i]) * shadow + (in_haze ? opacities[i] * air : 0.0), 0.006)
+          << opacities[i] << (in_haze ? " in haze" : "");
+    }
+  }
+}
+
+TEST(Composer, ShowsTwoPanesWhateverLiesBetween) {
+  // As surfaces of the scene, the panes have the numbers 0 and 3.
+  const PlacedModel cube = Place(MakeBox({-0.9, -0.9, 0.1}, {-0.8, -0.8, 0.2}, 0.5F), false);
+  const auto pane = [](double z) { return Place(BlackPane(0.5F, {-1, -1, z}, {1, 1, z}), false); };
+  EXPECT_NEAR(LetThrough({pane(0.3), cube, pane(0.4)}), 0.25, 0.01);
+}
+
+TEST(Composer, DrawsNoSeamWhereAPaneIsFolded) {
+  // A roof whose ridge crosses the pixels at a slant. Its two sides are pieces of one pane.
+  Model roof = BlackPane(0.9F, {-0.5, -0.5, 0.1}, {0.5, 0.5, 0.1});
+  Mesh& mesh = roof.meshes[0];
+  mesh.positions.clear();
+  mesh.normals.clear();
+  mesh.indices.clear();
+  for (const float side : {-1.0F, 1.0F}) {
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    for (const auto& [x, y, z] : {std::array<float, 3>{0.5F * side, -0.5F, 0.1F},
+                                  {0.5F * side, 0.5F, 0.1F},
+                                  {0.05F, 0.5F, 0.5F},
+                                  {-0.05F, -0.5F, 0.5F}}) {
+      mesh.positions.push_back({x, y, z});
+      mesh.normals.push_back({0.62F * side, 0.0F, 0.78F});
+    }
+    for (const std::uint32_t i : {0U, 1U, 2U, 0U, 2U, 3U}) mesh.indices.push_back(first + i);
+  }
+  const RgbImage composed = Compose({Place(roof, false)}, EvenPicture(200));
+  const double expected = 0.1 * LinearFromSrgb8()[200];
+  for (int y = 100; y < 140; ++y) {
+    for (int x = 140; x < 180; ++x) {
+      EXPECT_NEAR(LinearFromSrgb8()[composed(x, y, 1)], expected, 0.01) << x << ", " << y;
+    }
   }
 }
 
