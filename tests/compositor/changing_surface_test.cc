@@ -36,7 +36,8 @@ bool SameBytes(const RgbImage& a, const RgbImage& b) {
 }
 
 TEST(ChangingSurface, IsLitAsATracedOneInTheCourtyard) {
-  const testing::Courtyard courtyard;
+  // With few rays, the noise of the traced light alone is 0.24.
+  const testing::Courtyard courtyard(LightSolverOptions{}.rays_per_vertex);
   const RgbImage picture = courtyard.Picture(), mask = courtyard.ObjectMask();
   const auto compose = [&](Composer& composer) {
     return composer
@@ -68,9 +69,9 @@ TEST(ChangingSurface, IsLitAsATracedOneInTheCourtyard) {
     RecordProperty("body_" + frame, std::to_string(body / body_pixels));
     RecordProperty("shadow_" + frame, std::to_string(shadow / shadow_pixels));
     const bool rested = frame == "rested";
-    EXPECT_LE(body / body_pixels, rested ? 0.6 : 3.0) << frame;
-    EXPECT_LE(shadow / shadow_pixels, rested ? 1.3 : 3.0) << frame;
-    const int skipped = frame == "first" ? 8 : 40;
+    EXPECT_LE(body / body_pixels, rested ? 0.32 : 3.0) << frame;
+    EXPECT_LE(shadow / shadow_pixels, rested ? 1.2 : 3.0) << frame;
+    const int skipped = frame == "first" ? 8 : 90;
     for (int i = 0; i < skipped; ++i) {
       ASSERT_TRUE(changing->SkipImage(courtyard.poses()[testing::Courtyard::kKeyFrame]));
     }
@@ -134,7 +135,9 @@ TEST(ChangingSurface, LetsLightThroughLeaves) {
   const Vec3 middle{0.0, 0.0, 0.4};
   const double expected = SeenAt(Compose({kGround, still}, EvenPicture(0)), middle);
   EXPECT_GT(expected, 0.01);
-  EXPECT_NEAR(SeenAt(Compose({kGround, moving}, EvenPicture(0)), middle), expected, 0.1 * expected);
+  // One pixel value is 2.5 %.
+  EXPECT_NEAR(SeenAt(Compose({kGround, moving}, EvenPicture(0)), middle), expected,
+              0.15 * expected);
 }
 
 TEST(ChangingSurface, ForgetsASunThatIsGone) {

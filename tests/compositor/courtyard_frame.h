@@ -44,8 +44,10 @@ class Unmoved : public ModelAnimation {
 class Courtyard {
  public:
   static constexpr int kKeyFrame = 36;  ///< The frame of picture().
+  static constexpr int kRays = 64;      ///< Per vertex.
 
-  Courtyard() : poses_(ReadPoses()) {
+  /// `rays`: per vertex, for MakeComposer().
+  explicit Courtyard(int rays = kRays) : poses_(ReadPoses()) {
     for (const bool is_phantom : {true, false}) {
       scene_.push_back(
           {std::make_shared<const Model>(
@@ -54,7 +56,7 @@ class Courtyard {
            {},
            is_phantom});
     }
-    const auto solver = LightSolver::Create(scene_, {.rays_per_vertex = 64}).value();
+    const auto solver = LightSolver::Create(scene_, {.rays_per_vertex = rays}).value();
     lit_ = solver->Solve(day_, Mat3{});
     from_below_ = solver->RadianceFromBelow(day_, Mat3{});
   }
@@ -77,7 +79,7 @@ class Courtyard {
   std::unique_ptr<Composer> MakeChangingComposer(const ComposerOptions& options) const {
     std::vector<PlacedModel> scene = scene_;
     scene[1].playback.animation = std::make_shared<Unmoved>(scene[1].model);
-    const auto solver = LightSolver::Create(scene, {.rays_per_vertex = 64}).value();
+    const auto solver = LightSolver::Create(scene, {.rays_per_vertex = kRays}).value();
     auto composer = Composer::Create(camera_, scene, options).value();
     CHECK_EQ(composer
                  ->SetLight(solver->Solve(day_, Mat3{}), day_, Mat3{},

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/parallel_for.h"
+#include "compositor/light/changing/round_samples.h"
 #include "compositor/light/gather_origin.h"
 #include "compositor/light/sampling.h"
 #include "compositor/light/tessellation.h"
@@ -154,7 +155,7 @@ void BodyProbes::Trace(const Surroundings& surroundings, std::size_t index) {
   Vec3 bent, place, mean_normal;
   Float3 reflected{}, sunlight{}, sky{};
   std::uint32_t open = 0, outside = 0;
-  const std::uint32_t seed = Hash(static_cast<std::uint32_t>(index), probe.round);
+  const RoundSamples samples(kRays, probe.round, Hash(static_cast<std::uint32_t>(index), 0));
   for (std::uint32_t i = 0; i < kRays; ++i) {
     const std::size_t at = i * members.size() / kRays;
     const std::uint32_t vertex = members[(at + probe.round) % members.size()];
@@ -167,7 +168,7 @@ void BodyProbes::Trace(const Surroundings& surroundings, std::size_t index) {
     const std::uint32_t still = members[at];
     place = place + WideVector(surface.positions[still]);
     mean_normal = mean_normal + WideVector(surface.normals[still]) * (side.back ? -1.0 : 1.0);
-    const Vec3 direction = CosineDirection(TangentFrame(normal), ShiftedHammersley(i, kRays, seed));
+    const Vec3 direction = CosineDirection(TangentFrame(normal), samples[i]);
     const SeenAlongRay seen =
         surroundings.Look(GatherOrigin({position, normal, {}}, centre * (1.0 / 3.0)), direction);
     if (seen.what == SeenAlongRay::What::kInside) continue;

@@ -17,6 +17,8 @@ namespace {
 
 // Probes and still vertices that a frame refreshes: about 4 ms on two processors.
 constexpr std::size_t kProbesPerFrame = 192, kVerticesPerFrame = 384;
+// The same where no shape changes: nothing else is done in such a frame.
+constexpr std::size_t kProbesPerFrameAtRest = 576;
 // Rounds over all of them when the scene or its light is new. The first does not count, so that the
 // first frame has 64 rays a probe.
 constexpr int kFirstRounds = 5;
@@ -88,7 +90,7 @@ class TracedBodies : public ChangingBodies {
       // The rays of the first round end at surfaces with their light of before.
       if (state_.rounds == kFirstRounds) Forget();
     }
-    Refresh(kProbesPerFrame, kVerticesPerFrame);
+    Refresh(changed ? kProbesPerFrame : kProbesPerFrameAtRest, kVerticesPerFrame);
     return changed;
   }
 

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/parallel_for.h"
+#include "compositor/light/changing/round_samples.h"
 #include "compositor/light/gather_origin.h"
 #include "compositor/light/sampling.h"
 
@@ -131,12 +132,12 @@ void ContactLight::Trace(const Surroundings& surroundings, std::size_t index) {
     const double share = bodies_.radius_m / distance_m;
     const double cap = in_cone ? 1.0 - std::sqrt(1.0 - share * share) : 1.0;
     const TangentFrame frame(in_cone ? to_bodies * (1.0 / distance_m) : normal);
-    const std::uint32_t seed = Hash(Hash(m, v), change.round);
+    const RoundSamples samples(kRays, change.round, Hash(m, v));
     const std::array<float, 3>& received = mesh.ambient_with[v];
     const Float3 reflected =
         mesh.sunlight.reflected_with.empty() ? Float3{} : mesh.sunlight.reflected_with[v];
     for (std::uint32_t i = 0; i < kRays; ++i) {
-      const SamplePoint point = ShiftedHammersley(i, kRays, seed);
+      const SamplePoint point = samples[i];
       Vec3 direction = CosineDirection(frame, point);
       double weight = std::numbers::pi / kRays;
       if (in_cone) {
@@ -167,7 +168,7 @@ void ContactLight::Trace(const Surroundings& surroundings, std::size_t index) {
                      : moved_m < forget_m  ? kMaxRaysBesideMoving
                                            : kRays;
   if (moved_m < kRestPath_m && may_see) {
-    TraceShaded(surroundings, origin, normal, Hash(Hash(v, m), change.round), &change);
+    TraceShaded(surroundings, origin, normal, Hash(v, m), &change);
   }
   change.rays = std::min(change.rays, most - kRays) + kRays;
   const float weight = static_cast<float>(kRays) / change.rays;
@@ -180,9 +181,10 @@ void ContactLight::Trace(const Surroundings& surroundings, std::size_t index) {
 void ContactLight::TraceShaded(const Surroundings& surroundings, Vec3 origin, Vec3 normal,
                                std::uint32_t seed, Change* change) {
   const TangentFrame frame(normal);
+  const RoundSamples samples(kRays, change->round, seed);
   Float3 shaded{};
   for (std::uint32_t i = 0; i < kRays; ++i) {
-    const Vec3 direction = CosineDirection(frame, ShiftedHammersley(i, kRays, seed));
+    const Vec3 direction = CosineDirection(frame, samples[i]);
     const Float3 missing = surroundings.ShadedSunlight(origin, direction);
     for (std::size_t c = 0; c < 3; ++c) {
       shaded[c] += missing[c] * std::numbers::pi_v<float> / static_cast<float>(kRays);
