@@ -120,6 +120,7 @@ Result<ImageSize> InspectImage(std::string_view bytes, const std::string& name) 
 }
 
 bool IsImageFile(const std::filesystem::path& file) {
+  if (!files::CheckRegularFile(file)) return false;  // Opening a pipe waits for its writer.
   std::string start(kPngSignature.size(), '\0');
   std::ifstream(file, std::ios::binary)
       .read(start.data(), static_cast<std::streamsize>(start.size()));

@@ -24,6 +24,7 @@ extern "C" {
 #include "devices/films/film_stamps.h"
 #include "devices/films/frame_tables.h"
 #include "devices/films/video_container.h"
+#include "files/text_file.h"
 
 namespace pleinair::devices {
 namespace {
@@ -289,6 +290,7 @@ Result<OpenedVideo> Open(const std::filesystem::path& file, const VideoMetadata&
 }  // namespace
 
 Result<OpenedVideo> OpenVideo(const std::filesystem::path& file, const VideoMetadata& facts) {
+  PLEINAIR_RETURN_IF_ERROR(files::CheckRegularFile(file));
   std::error_code error;
   const std::uintmax_t bytes = std::filesystem::file_size(file, error);
   if (error) {

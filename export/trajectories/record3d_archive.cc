@@ -9,13 +9,13 @@
 #include <system_error>
 #include <utility>
 
+#include "files/text_file.h"
+
 namespace pleinair::exports {
 namespace {
 
 constexpr const char* kMember = "metadata";
 constexpr const char* kShareAgain = "share it again from Record3D";
-/// An hour at 60 Hz has some 100 MB. The parsed JSON takes several times as much memory.
-constexpr zip_uint64_t kMaxMetadata_bytes = zip_uint64_t{1} << 28;
 /// Numbers in JSON compress three- to tenfold, DEFLATE a thousandfold at most.
 constexpr zip_uint64_t kMaxRatio = 100, kSurelySmall = zip_uint64_t{1} << 20;
 
@@ -30,9 +30,6 @@ using Archive = std::unique_ptr<zip_t, DiscardArchive>;
 
 /// The error of libzip as one of the file's.
 tl::unexpected<Error> ArchiveError(const std::string& name, const zip_error_t& error) {
-  if (zip_error_code_zip(&error) == ZIP_ER_NOENT) {
-    return InputError(name, "does not exist", "check the name");
-  }
   if (zip_error_system_type(&error) == ZIP_ET_SYS) {
     return InputError(
         name, "cannot be read: " + std::generic_category().message(zip_error_code_system(&error)));
@@ -62,7 +59,7 @@ Result<zip_uint64_t> CheckedSize(zip_t* archive, zip_uint64_t index, const std::
   if ((facts.valid & ZIP_STAT_ENCRYPTION_METHOD) != 0 && facts.encryption_method != ZIP_EM_NONE) {
     return InputError(name, "is encrypted", "share it without a password");
   }
-  if (facts.size > kMaxMetadata_bytes ||
+  if (facts.size > kMaxRecord3dMetadata_bytes ||
       (facts.size > kSurelySmall && facts.size / kMaxRatio > facts.comp_size)) {
     return InputError(name, "has metadata that would unpack to more than a trajectory needs",
                       kShareAgain);
@@ -98,6 +95,7 @@ Result<std::string> MetadataIn(zip_t* archive, const std::string& name) {
 }  // namespace
 
 bool IsZipArchive(const std::filesystem::path& file) {
+  if (!files::CheckRegularFile(file)) return false;  // Opening a pipe waits for its writer.
   std::array<char, 2> start{};
   std::ifstream in(file, std::ios::binary);
   return in.read(start.data(), start.size()) && start == std::array{'P', 'K'};

@@ -28,8 +28,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxBytes = std::size_t{1} << 30;
-/// An hour at 60 Hz has some 100 MB. The parsed JSON takes several times as much memory.
-constexpr std::size_t kMaxMetadataBytes = std::size_t{1} << 28;
 constexpr const char* kStrayFile = "odometry.csv";
 constexpr const char* kArchiveExtension = ".r3d";
 constexpr std::array<const char*, 2> kRecord3dFiles{"metadata", "metadata.json"};
@@ -43,6 +41,7 @@ std::string LowerExtension(const fs::path& file) {
 
 /// True for a file that begins with the header of Stray Scanner's odometry.csv.
 bool HasStrayHeader(const fs::path& file) {
+  if (!files::CheckRegularFile(file)) return false;  // Opening a pipe waits for its writer.
   constexpr std::streamsize kHeaderBytes = 200;
   std::string start(kHeaderBytes, '\0');
   std::ifstream in(file, std::ios::binary);
@@ -51,22 +50,42 @@ bool HasStrayHeader(const fs::path& file) {
   return IsStrayOdometry(start);
 }
 
-/// The metadata in a folder of Record3D; nothing for other folders and files.
-std::optional<fs::path> Record3dFileIn(const fs::path& folder) {
+/// The metadata or the one archive in a folder of Record3D; nothing for other folders and files.
+/// Errors: several archives and no metadata.
+Result<std::optional<fs::path>> Record3dFileIn(const fs::path& folder) {
   std::error_code error;
   for (const char* name : kRecord3dFiles) {
     if (fs::is_regular_file(folder / name, error)) return folder / name;
   }
-  return std::nullopt;
+  std::optional<fs::path> archive;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    if (LowerExtension(entry->path()) != kArchiveExtension) continue;
+    if (archive) {
+      return InputError(folder.string(), "holds several .r3d archives",
+                        "name the one of this film");
+    }
+    archive = entry->path();
+  }
+  return archive;
+}
+
+/// True for a folder with a COLMAP model, whatever else is in it.
+bool HasColmapModel(const fs::path& folder) {
+  std::error_code error;
+  return fs::exists(folder / "cameras.txt", error) || fs::exists(folder / "cameras.bin", error);
 }
 
 /// Reads an .r3d archive, its metadata, or the folder of either.
 Result<CameraTrajectory> ReadRecord3d(const fs::path& named) {
-  const fs::path metadata = Record3dFileIn(named).value_or(named);
+  PLEINAIR_ASSIGN_OR_RETURN(const std::optional<fs::path> found, Record3dFileIn(named));
+  const fs::path metadata = found.value_or(named);
+  PLEINAIR_RETURN_IF_ERROR(files::CheckRegularFile(metadata));
   const bool is_archive = IsZipArchive(metadata) || LowerExtension(metadata) == kArchiveExtension;
   PLEINAIR_ASSIGN_OR_RETURN(const std::string json,
-                            is_archive ? ReadRecord3dArchive(metadata)
-                                       : files::ReadWholeFile(metadata, kMaxMetadataBytes));
+                            is_archive
+                                ? ReadRecord3dArchive(metadata)
+                                : files::ReadWholeFile(metadata, kMaxRecord3dMetadata_bytes));
   return ParseRecord3dMetadata(json, metadata.string());
 }
 
@@ -111,7 +130,9 @@ Result<TrajectoryFormat> TrajectoryFormatOf(const fs::path& file) {
   std::error_code error;
   const std::string extension = LowerExtension(file);
   if (fs::exists(file / kStrayFile, error)) return TrajectoryFormat::kStray;
-  if (Record3dFileIn(file) || extension == ".json" || extension == kArchiveExtension) {
+  if (HasColmapModel(file)) return TrajectoryFormat::kColmap;
+  PLEINAIR_ASSIGN_OR_RETURN(const std::optional<fs::path> record3d, Record3dFileIn(file));
+  if (record3d || extension == ".json" || extension == kArchiveExtension) {
     return TrajectoryFormat::kRecord3d;
   }
   if (fs::is_regular_file(file, error) && file.filename() == kRecord3dFiles[0]) {

@@ -29,8 +29,9 @@ std::optional<TrajectoryFormat> TrajectoryFormatNamed(const std::string& name);
 
 /// By file name: .tum and .txt TUM, .csv EuRoC, .glb and .gltf glTF, .mcap MCAP. A .csv with the
 /// header of Stray Scanner is such a file; so is a folder with an odometry.csv. A file `metadata`,
-/// an .r3d, a .json or a folder with `metadata` or `metadata.json` is Record3D's. Any other folder
-/// or name without extension is a COLMAP model. Errors: other names.
+/// an .r3d, a .json or a folder with `metadata`, `metadata.json` or one .r3d is Record3D's. Any
+/// other folder or name without extension is a COLMAP model, and so is a folder with its cameras.
+/// Errors: other names, a folder with several .r3d.
 Result<TrajectoryFormat> TrajectoryFormatOf(const std::filesystem::path& file);
 
 struct TrajectoryReading {

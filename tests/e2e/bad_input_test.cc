@@ -180,6 +180,20 @@ TEST(BadInput, TablesThatNeverEndAreRefused) {
   ExpectRefused(RunPleinair({"sun", "--csv", folder / "pipe"}), "pipe: is a pipe, not a file");
 }
 
+TEST(BadInput, APipeInPlaceOfAFilmOrATrajectoryIsRefused) {
+  const TemporaryFolder folder;
+  for (const char* name : {"walk.r3d", "walk.csv", "metadata", "walk.mov"}) {
+    ASSERT_EQ(mkfifo((folder / name).c_str(), 0600), 0);
+  }
+  for (const char* name : {"walk.r3d", "walk.csv", "metadata"}) {
+    ExpectRefused(RunPleinair({"path", "convert", folder / name, folder / "a.tum"}),
+                  std::string(name) + ": is a pipe, not a file");
+  }
+  ExpectRefused(RunPleinair({"film", folder / "walk.mov"}), "walk.mov: is a pipe, not a file");
+  ExpectRefused(RunPleinair({"new", folder / "walk.mov", "--yes", "-o", folder / "site"}),
+                "walk.mov: is a pipe, not a file");
+}
+
 TEST(BadInput, AFolderInPlaceOfARunIsRefused) {
   const TemporaryFolder folder;
   fs::create_directories(folder / "out/run.json");

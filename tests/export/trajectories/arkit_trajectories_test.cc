@@ -10,6 +10,7 @@
 #include "export/trajectories/stray_trajectory.h"
 #include "export/trajectories/trajectory_files.h"
 #include "tests/error_message.h"
+#include "tests/source_tree.h"
 
 namespace pleinair::exports {
 namespace {
@@ -141,6 +142,17 @@ TEST(TrajectoryFormats, KnowFilesAndFoldersOfArkit) {
     EXPECT_EQ(TrajectoryFormatOf(folder / record3d), TrajectoryFormat::kRecord3d) << record3d;
     EXPECT_TRUE(ReadTrajectory(folder / record3d, TrajectoryFormat::kRecord3d, {}));
   }
+  // A folder has one archive, or says which.
+  const std::filesystem::path archive = tests::SourceTree() / "tests/fuzz/corpus/path/stored.r3d";
+  std::filesystem::create_directories(folder / "shared");
+  std::filesystem::copy_file(archive, folder / "shared/walk.r3d");
+  EXPECT_EQ(TrajectoryFormatOf(folder / "shared"), TrajectoryFormat::kRecord3d);
+  EXPECT_TRUE(ReadTrajectory(folder / "shared", TrajectoryFormat::kRecord3d, {}));
+  std::filesystem::copy_file(archive, folder / "shared/other.R3D");
+  EXPECT_THAT(MessageOf(TrajectoryFormatOf(folder / "shared")),
+              HasSubstr("holds several .r3d archives"));
+  write("shared/cameras.txt", "");
+  EXPECT_EQ(TrajectoryFormatOf(folder / "shared"), TrajectoryFormat::kColmap);
   std::filesystem::remove_all(folder);
 }
 

@@ -53,7 +53,7 @@ TEST(Record3dArchive, IsReadAsItIsShared) {
     EXPECT_EQ(path->camera->width, 720);
   }
   EXPECT_THAT(MessageOf(ReadTrajectory("none.r3d", TrajectoryFormat::kRecord3d, {})),
-              StartsWith("none.r3d: does not exist"));
+              StartsWith("none.r3d: there is no such file"));
 }
 
 TEST(Record3dArchive, CutAndDamagedOnesAreRefused) {
@@ -87,6 +87,16 @@ TEST(Record3dArchive, BombsAreRefusedBeforeTheyUnpack) {
     EXPECT_THAT(MessageOf(ParseRecord3dArchive(WithSize(whole, size), "walk.r3d")),
                 HasSubstr("is no whole zip archive"));
   }
+}
+
+TEST(Record3dArchive, EncryptedOnesAreRefused) {
+  // Bit 0 of the general purpose flag in both headers of the metadata (APPNOTE.TXT 6.3.10, 4.4.4).
+  std::string bytes = ArchiveBytes("deflated.r3d");
+  constexpr std::size_t kFlagInEntry = 8, kFlagInHeader = 6;
+  bytes[LastEntry(bytes) + kFlagInEntry] |= 1;
+  bytes[bytes.rfind(std::string("PK\3\4", 4)) + kFlagInHeader] |= 1;
+  EXPECT_THAT(MessageOf(ParseRecord3dArchive(bytes, "walk.r3d")),
+              StartsWith("walk.r3d: is encrypted"));
 }
 
 TEST(Record3dArchive, OtherNamesAreNoMetadata) {
