@@ -282,6 +282,7 @@ void BackgroundLight::EstimateLight(const Shown& shown, const Wanted& wanted) {
 /// Gives described surfaces their measured colors. Where such a scene cannot be lit, the last
 /// stays.
 void BackgroundLight::UseColors(const std::map<int, compositor::SurfaceColor>& colors) {
+  const std::vector<scene::ModelReference> before = setup_.scene.phantoms;
   bool is_new = false;
   for (const auto& [index, color] : colors) {
     if (color.outcome != compositor::SurfaceColor::Outcome::kMeasured) continue;
@@ -295,7 +296,11 @@ void BackgroundLight::UseColors(const std::map<int, compositor::SurfaceColor>& c
   SceneEdit edit = setup_.edit;
   edit.objects = placed_.objects;
   edit.phantoms = placed_.phantoms;
-  static_cast<void>(Place(edit, true));
+  if (!Place(edit, true)) {
+    setup_.scene.phantoms = before;  // The next estimate measures them again.
+    return;
+  }
+  placed_.has_measured_colors = true;
 }
 
 void BackgroundLight::WantCoefficients(const Wanted& wanted,
@@ -305,8 +310,10 @@ void BackgroundLight::WantCoefficients(const Wanted& wanted,
   compositor::CoefficientOptions options;
   options.convergence = placed_.convergence;
   options.division = setup_.light.sky_division;
-  // Trial edits would fill the disk: each object placement has its own file.
-  const bool as_begun = wanted.edit.objects == setup_.edit.objects &&
+  // Trial edits would fill the disk: each object placement has its own file. So would measured
+  // colors, which are never quite those of another session.
+  const bool as_begun = !placed_.has_measured_colors &&
+                        wanted.edit.objects == setup_.edit.objects &&
                         wanted.edit.phantoms == setup_.edit.phantoms &&
                         wanted.edit.convergence == setup_.edit.convergence;
   if (as_begun) options.cache = setup_.light.cache;

@@ -120,6 +120,7 @@ class BackgroundLight {
     std::optional<SceneEdit> refused{};  // The last one, if its placements cannot be lit.
     std::shared_ptr<const compositor::DaylightCoefficients> coefficients{};
     double convergence = 0.0;  // Of the coefficients.
+    bool has_measured_colors = false;
     std::shared_ptr<const compositor::LightSolver>
         ordered_for{};  // The solver whose coefficients are ordered.
   };

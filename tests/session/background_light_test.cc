@@ -236,7 +236,8 @@ TEST(BackgroundLight, KeepsTheCoefficientsOfTheSceneAsItBeganAlone) {
 class LiveYard {
  public:
   /// `off_deg`: error of the described heading. `ground`: in place of a model; null: the model.
-  explicit LiveYard(double off_deg, const scene::DescribedSurface* ground = nullptr) {
+  explicit LiveYard(double off_deg, const scene::DescribedSurface* ground = nullptr,
+                    const std::filesystem::path& cache = {}) {
     BackgroundLight::Setup setup;
     setup.camera = yard_.camera();
     setup.scene = tests::YardScene(yard_, off_deg, time_);
@@ -249,12 +250,15 @@ class LiveYard {
     setup.edit = UneditedScene(setup.scene, {});
     setup.skies.source = compositor::DescribedSky(setup.scene);
     setup.time = time_;
+    setup.light.cache = cache;
+    setup.light.sky_division = 1;
     light_ = *BackgroundLight::Create(setup);
     light_->SetMarkerReflectance(yard_.marker());
   }
 
   const PhotographedYard& yard() const { return yard_; }
   BackgroundLight::Progress progress() const { return light_->progress(); }
+  BackgroundLight& light() { return *light_; }
 
   /// Passes enough frames for one light estimate, one minute after the last estimate. Returns the
   /// resulting light.
@@ -288,13 +292,24 @@ TEST(BackgroundLight, MeasuresTheColorOfGroundWithoutOne) {
   scene::DescribedSurface ground = scene::GroundSurface(10.0, 0.0, false);
   ASSERT_FALSE(ground.has_color);
   ground.reflectance = {0.1, 0.2, 0.5};
-  LiveYard live(0.0, &ground);
+  const std::filesystem::path cache =
+      std::filesystem::path(testing::TempDir()) / ("color_cache_" + std::to_string(getpid()));
+  LiveYard live(0.0, &ground, cache);
+  const auto has_coefficients = [](const BakedLighting& lit) {
+    return lit.request.coefficients != nullptr;
+  };
+  Await(live.light(), has_coefficients);
   const auto lit = live.LookAt(live.yard().Photograph(0, {.colors_as_described = true}));
   ASSERT_TRUE(lit->meshes.at(0).is_phantom);
   const auto& measured = lit->meshes.at(0).texturing.reflectance;
   EXPECT_NEAR(measured[0], 0.35, 0.035);
   EXPECT_NEAR(measured[1], 0.33, 0.033);
   EXPECT_NEAR(measured[2], 0.30, 0.030);
+  // No other session measures quite these colors: their coefficients are not kept.
+  if (!has_coefficients(*lit)) Await(live.light(), has_coefficients);
+  const auto kept = std::distance(std::filesystem::directory_iterator(cache), {});
+  std::filesystem::remove_all(cache);
+  EXPECT_EQ(kept, 1) << "those of the scene as it is described";
 }
 
 TEST(BackgroundLight, KeepsWhatFramesToldWhenTheNextOnesTellNothing) {
