@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "app/check/spread_frames.h"
+#include "app/check/views_near_sample.h"
 #include "app/replay/given_trajectory.h"
 #include "app/replay/placement_warnings.h"
 #include "app/terminal/interrupt.h"
@@ -27,10 +28,12 @@ namespace fs = std::filesystem;
 // With a trajectory, the marker may be in view for a second of a minute.
 constexpr std::size_t kMaxFramesByMarker = 24, kMaxFramesAlongTrajectory = 96;
 
+Result<devices::Recording> OpenWhole(const CheckRequest& request) {
+  return devices::OpenRecording(request.project, {request.calibration, request.scene});
+}
+
 Result<devices::Recording> OpenSpread(const CheckRequest& request) {
-  PLEINAIR_ASSIGN_OR_RETURN(
-      devices::Recording recording,
-      devices::OpenRecording(request.project, {request.calibration, request.scene}));
+  PLEINAIR_ASSIGN_OR_RETURN(devices::Recording recording, OpenWhole(request));
   const bool has_trajectory = recording.scene && recording.scene->trajectory;
   recording.frames = std::make_unique<SpreadFrames>(
       std::move(recording.frames), has_trajectory ? kMaxFramesAlongTrajectory : kMaxFramesByMarker);
@@ -121,8 +124,13 @@ Result<SiteFacts> LookAtSite(const CheckRequest& request) {
   const auto damage = recording.damage;
   PLEINAIR_RETURN_IF_ERROR(session::TrackRecording(*pipeline, std::move(recording), take, monitor));
   facts.damage = *damage;
-  pipeline->FollowAnchors();
-  if (trajectory) facts.trajectory = FitTrajectory(*trajectory, pipeline.get());
+  if (trajectory) {
+    PLEINAIR_ASSIGN_OR_RETURN(
+        trajectory->more_views,
+        ViewsNearSample(
+            *pipeline, *trajectory, [&] { return OpenWhole(request); }, monitor));
+    facts.trajectory = FitTrajectory(*trajectory, pipeline.get());
+  }
   facts.with_pose = static_cast<std::int64_t>(pipeline->Path().size());
   const auto reference = pipeline->PathMarker();
   if (!reference) return facts;

@@ -15,7 +15,8 @@ struct CheckRequest {
 };
 
 /// Measures up to 24 frames, 96 with a trajectory, spread over a recording, and collects the input
-/// of JudgeSite(). Errors: those of OpenRecording(), Pipeline::Create() and the passes; a recording
+/// of JudgeSite(). Near those that show the marker, up to 24 more are tracked, which align a
+/// trajectory. Errors: those of OpenRecording(), Pipeline::Create() and the passes; a recording
 /// without a scene; interrupted.
 Result<SiteFacts> LookAtSite(const CheckRequest& request);
 

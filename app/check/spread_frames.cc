@@ -16,6 +16,10 @@ SpreadFrames::SpreadFrames(std::unique_ptr<devices::FrameSource> all, std::size_
   }
 }
 
+SpreadFrames::SpreadFrames(std::unique_ptr<devices::FrameSource> all,
+                           std::vector<std::int64_t> wanted)
+    : all_(std::move(all)), wanted_(std::move(wanted)) {}
+
 Result<std::optional<devices::Frame>> SpreadFrames::Next() {
   if (!wanted_) return all_->Next();
   if (next_ == wanted_->size()) return std::optional<devices::Frame>();

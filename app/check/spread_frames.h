@@ -10,12 +10,14 @@
 
 namespace pleinair::app {
 
-/// Samples frames evenly over a recording. They keep their own indices and time stamps.
+/// Samples frames of a recording. They keep their own indices and time stamps.
 /// FrameCount() is their number.
 class SpreadFrames : public devices::FrameSource {
  public:
-  /// At most `most` frames; all where the number of frames is not known.
+  /// At most `most` frames, evenly spread; all where the number of frames is not known.
   SpreadFrames(std::unique_ptr<devices::FrameSource> all, std::size_t most);
+  /// The frames with these indices, which ascend.
+  SpreadFrames(std::unique_ptr<devices::FrameSource> all, std::vector<std::int64_t> wanted);
 
   Result<std::optional<devices::Frame>> Next() override;
   std::optional<std::int64_t> FrameCount() const override;

@@ -17,16 +17,6 @@ std::string AlignmentText(const session::TrajectorySummary& summary) {
                            alignment.used - alignment.outliers, alignment.residual_rms);
 }
 
-std::string ClockText(const session::TrajectorySummary& summary) {
-  if (summary.by_frame) return "";
-  const char* from = summary.offset.is_given ? "given" : "assumed";
-  return fmt::format("; offset of its clock {:.3f} s, {}",
-                     1e-9 * static_cast<double>(summary.offset.offset_ns),
-                     summary.offset.deviation_s
-                         ? fmt::format("estimated within {:.3f} s", *summary.offset.deviation_s)
-                         : from);
-}
-
 }  // namespace
 
 SiteFinding TrajectoryFinding(const TrajectoryFit& fit, std::int64_t looked_at) {
@@ -39,9 +29,10 @@ SiteFinding TrajectoryFinding(const TrajectoryFit& fit, std::int64_t looked_at) 
   }
   const session::TrajectorySummary& summary = *fit.summary;
   const std::int64_t covered = summary.frames.by_trajectory;
+  const std::string clock = ClockText(summary);
   SiteFinding finding{"trajectory", SiteVerdict::kGood,
-                      fmt::format("it has the pose of {} of {} frames, {}{}", covered, looked_at,
-                                  AlignmentText(summary), ClockText(summary)),
+                      fmt::format("it has the pose of {} of {} frames, {}{}{}", covered, looked_at,
+                                  AlignmentText(summary), clock.empty() ? "" : "; ", clock),
                       ""};
   if (DisagreesWithMarker(summary)) {
     finding.verdict = SiteVerdict::kDoubtful;
@@ -56,6 +47,9 @@ SiteFinding TrajectoryFinding(const TrajectoryFit& fit, std::int64_t looked_at) 
   } else if (10 * covered < 9 * looked_at) {
     finding.verdict = SiteVerdict::kDoubtful;
     finding.remedy = "check offset_s, max_gap_s, and that it belongs to this film";
+  } else if (HasAssumedOffset(summary)) {
+    finding.verdict = SiteVerdict::kDoubtful;
+    finding.remedy = "state offset_s, or show the marker for a second while the camera moves";
   }
   return finding;
 }

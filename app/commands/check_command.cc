@@ -18,7 +18,8 @@ namespace {
 constexpr const char* kCheckExamples =
     "Examples:\n"
     "  pleinair check site\n"
-    "      is it worth going home? looks at 24 frames, in seconds\n"
+    "      is it worth going home? looks at 24 frames, or at 96 along a\n"
+    "      trajectory, in seconds\n"
     "  pleinair check walk.mp4 --calibration phone.yaml --scene scene.toml --json\n"
     "Checks: is the marker seen, large, sharp and rightly exposed; does the lens stay the same "
     "and\n"

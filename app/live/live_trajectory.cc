@@ -7,7 +7,9 @@
 #include <utility>
 
 #include "app/check/spread_frames.h"
+#include "app/check/views_near_sample.h"
 #include "app/replay/given_trajectory.h"
+#include "app/replay/trajectory_warnings.h"
 #include "session/following/low_priority.h"
 #include "session/recording_passes.h"
 
@@ -49,10 +51,16 @@ void LiveTrajectory::Run() {
     return;
   }
   const session::TrajectorySummary& summary = aligned->summary;
-  news_ = fmt::format("The trajectory {} is aligned; it has the pose of {} of {} frames.",
-                      summary.file, summary.frames.by_trajectory,
+  const std::string clock = ClockText(summary);
+  news_ = fmt::format("{}The trajectory {} is aligned; it has the pose of {} of {} frames{}{}.",
+                      HasAssumedOffset(summary) ? "warning: " : "", summary.file,
+                      summary.frames.by_trajectory,
                       summary.frames.by_trajectory + summary.frames.by_marker +
-                          summary.frames.filled + summary.frames.missing);
+                          summary.frames.filled + summary.frames.missing,
+                      clock.empty() ? "" : "; ", clock);
+  if (HasAssumedOffset(summary)) {
+    *news_ += " If objects sway against the ground when the camera turns, state offset_s.";
+  }
   aligned_ = std::make_shared<const Aligned>(*std::move(aligned));
 }
 
@@ -78,6 +86,8 @@ Result<LiveTrajectory::Aligned> LiveTrajectory::Align() {
       },
       nullptr};
   PLEINAIR_RETURN_IF_ERROR(session::TrackRecording(*pipeline, std::move(recording), take, monitor));
+  PLEINAIR_ASSIGN_OR_RETURN(request_.more_views,
+                            ViewsNearSample(*pipeline, request_, open_, monitor));
   PLEINAIR_RETURN_IF_ERROR(pipeline->FollowTrajectory(request_));
   return Aligned{camera, *pipeline->PathMarker(), *pipeline->trajectory_summary()};
 }

@@ -61,7 +61,7 @@ class LiveTrajectory {
   Result<Aligned> Align();
   session::FrameTime RecordedTimeOf(const devices::Frame& frame) const;
 
-  session::TrajectoryRequest request_;  // Its clock is the thread's.
+  session::TrajectoryRequest request_;  // Its clock and views are the thread's.
   const scene::SceneDescription scene_;
   const Opener open_;
   mutable std::mutex mutex_;

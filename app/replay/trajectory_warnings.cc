@@ -46,6 +46,20 @@ std::string OffsetSentence(const session::TrajectoryOffset& offset) {
 
 }  // namespace
 
+std::string ClockText(const session::TrajectorySummary& summary) {
+  if (summary.by_frame) return "";
+  const std::string from =
+      summary.offset.deviation_s
+          ? fmt::format("estimated within {:.3f} s", *summary.offset.deviation_s)
+          : std::string(summary.offset.is_given ? "given" : "assumed");
+  return fmt::format("offset of its clock {:.3f} s, {}",
+                     1e-9 * static_cast<double>(summary.offset.offset_ns), from);
+}
+
+bool HasAssumedOffset(const session::TrajectorySummary& summary) {
+  return !summary.by_frame && !summary.offset.is_given && !summary.offset.deviation_s;
+}
+
 bool DisagreesWithMarker(const session::TrajectorySummary& summary) {
   return !summary.by_points && summary.alignment.chi2_per_dof > kExplainedChi2;
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <map>
 #include <utility>
 
@@ -75,6 +76,18 @@ const Observation* Of(const std::map<std::int64_t, const Observation*>& by_frame
   return found == by_frame.end() ? nullptr : found->second;
 }
 
+/// Both in order of frames; a frame of both counts once.
+std::vector<Observation> WithMoreViews(const std::vector<Observation>& track,
+                                       const std::vector<Observation>& more) {
+  const auto is_before = [](const Observation& a, const Observation& b) {
+    return a.frame_index < b.frame_index;
+  };
+  std::vector<Observation> all;
+  std::set_union(track.begin(), track.end(), more.begin(), more.end(), std::back_inserter(all),
+                 is_before);
+  return all;
+}
+
 TrajectoryOffset OffsetOf(const CameraModel& camera, const scene::MarkerDescription& marker,
                           const std::vector<FrameTime>& times,
                           const std::vector<Observation>& track, const TrajectoryRequest& request) {
@@ -123,10 +136,11 @@ Result<FollowedTrajectory> FollowTrajectory(const CameraModel& camera,
   summary.by_frame = trajectory.by_frame;
   summary.by_points = !request.points.empty();
   summary.is_metric = trajectory.is_metric;
-  summary.offset = OffsetOf(camera, marker, times, track, request);
+  const std::vector<Observation> seen_at = WithMoreViews(track, request.more_views);
+  summary.offset = OffsetOf(camera, marker, times, seen_at, request);
   // A picture target is no square of a stated size.
   std::vector<TrajectoryView> views;
-  if (!marker.target) views = TrajectoryViews(trajectory, track, summary.offset.offset_ns);
+  if (!marker.target) views = TrajectoryViews(trajectory, seen_at, summary.offset.offset_ns);
   if (summary.by_points) {
     PLEINAIR_ASSIGN_OR_RETURN(summary.alignment,
                               AlignByPoints(request.points, trajectory.is_metric, trajectory.file));

@@ -7,6 +7,7 @@
 
 #include "base/frames.h"
 #include "base/vector.h"
+#include "session/marker_tracks.h"
 
 namespace pleinair::session {
 
@@ -66,6 +67,9 @@ struct TrajectoryRequest {
   std::optional<std::int64_t> clock_start_ns{};
   /// Places that align the trajectory; empty: the frames that show the marker align it.
   std::vector<PointPair> points{};
+  /// Further views of the reference marker, in order of frames, where only a sample of the
+  /// recording is tracked. They count for offset and alignment, and get no pose.
+  std::vector<Observation> more_views{};
 };
 
 }  // namespace pleinair::session

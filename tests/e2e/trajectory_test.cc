@@ -234,10 +234,42 @@ TEST(Trajectory, CheckSaysWhetherItFitsTheFilm) {
     WriteFile(folder / "site/scene.toml", scene + "[trajectory]\n" + keys);
     return FindingOn("trajectory", RunPleinair({"check", folder / "site"}).out);
   };
-  EXPECT_THAT(finding("file = \"walk.tum\"\n"), HasSubstr("good: it has the pose of 12 of 12"));
+  EXPECT_THAT(finding("file = \"walk.tum\"\noffset_s = 0\n"),
+              HasSubstr("good: it has the pose of 12 of 12"));
+  EXPECT_THAT(finding("file = \"walk.tum\"\n"), HasSubstr("doubtful: it has the pose of 12 of 12"));
   EXPECT_THAT(finding("file = \"walk.tum\"\noffset_s = 60\n"), HasSubstr("bad: "));
   WriteFile(folder / "site/scene.toml", scene + "[trajectory]\nfile = \"none.tum\"\n");
   ExpectRefused(RunPleinair({"check", folder / "site"}), "none.tum");
+}
+
+TEST(Trajectory, CheckAndLiveEstimateTheOffsetOfAWalkThatShowsTheMarkerShortly) {
+  const TemporaryFolder folder;
+  constexpr int kFrames = 240, kFirst = 110, kSeen = 18;
+  const auto pose = [](int frame) { return WalkPose(frame - kFirst - 3); };
+  std::vector<std::vector<ShownMarker>> frames(kFrames);
+  for (int i = kFirst; i < kFirst + kSeen; ++i) {
+    frames[static_cast<std::size_t>(i)].push_back({17, pose(i)});
+  }
+  CameraModel small = WalkLens();
+  small.width /= 2;
+  small.height /= 2;
+  small.fx = small.fy = 350.0;
+  small.cx = 159.5;
+  small.cy = 119.5;
+  WriteMarkerRecording(folder / "site", small, frames, "[trajectory]\nfile = \"walk.tum\"\n");
+  std::string walk;
+  for (int i = 0; i < kFrames; ++i) {
+    const auto at = pose(i).Inverse();
+    walk += fmt::format("{:.9f} {}\n", 0.1 + i / kWalkRate_hz,
+                        Seven(at.translation_m, QuaternionOf(at.rotation), " "));
+  }
+  WriteFile(folder / "site/walk.tum", walk);
+  const RunResult check = RunPleinair({"check", folder / "site"});
+  EXPECT_THAT(FindingOn("trajectory", check.out),
+              testing::ContainsRegex("good: .*offset of its clock -0.(09|10).*, estimated within"));
+  const RunResult live = RunPleinair({"live", "--camera", "file:" + (folder / "site").string(),
+                                      "--headless", "--lossless", "--seconds", "0.1"});
+  EXPECT_THAT(live.err, testing::ContainsRegex("clock -0.(09|10).*, estimated within"));
 }
 
 TEST(Trajectory, LivePlaysARecordingAlongItAndRefusesACamera) {

@@ -71,6 +71,7 @@ TEST(JudgeSite, ATrajectoryMakesUpForFramesWithoutTheMarker) {
       summary.frames.by_trajectory = covered;
       summary.alignment.used = 2;
       summary.alignment.chi2_per_dof = 1.0;
+      summary.offset.deviation_s = 0.002;
       change(&*site->trajectory);
     };
   };
@@ -91,6 +92,14 @@ TEST(JudgeSite, ATrajectoryMakesUpForFramesWithoutTheMarker) {
                                             fit->summary = InputError("f", "lacks poses", "look");
                                           })),
             SiteVerdict::kBad);
+  const auto assumed = [](TrajectoryFit* fit) { fit->summary->offset.deviation_s.reset(); };
+  EXPECT_EQ(VerdictOn("trajectory", along(10, assumed)), SiteVerdict::kDoubtful);
+  EXPECT_EQ(VerdictOn("trajectory", along(10,
+                                          [&](TrajectoryFit* fit) {
+                                            assumed(fit);
+                                            fit->summary->offset.is_given = true;
+                                          })),
+            SiteVerdict::kGood);
   EXPECT_EQ(VerdictOn("trajectory", along(0, [](TrajectoryFit* fit) { fit->has_marker = false; })),
             SiteVerdict::kUnknown);
 }

@@ -113,6 +113,25 @@ TEST(FollowTrajectory, FindsTheOffsetOfAnotherClock) {
   EXPECT_NEAR(static_cast<double>(offset.offset_ns + kClock_ns) * 1e-9, 0.0, 0.002);
 }
 
+TEST(FollowTrajectory, FindsTheOffsetByMoreViewsOfASample) {
+  MadeTrajectory made;
+  constexpr std::int64_t kLate_ns = 150'000'000;
+  TrajectoryRequest request{made.Given(1.0, kLate_ns), std::nullopt};
+  const std::vector<Observation> sample = made.Seen({60, 75});
+  EXPECT_FALSE(Follow(made, sample, request)->summary.offset.deviation_s);
+  std::vector<int> nearby;
+  for (int i = 54; i < 80; i += 2) nearby.push_back(i);
+  request.more_views = made.Seen(nearby);
+  const auto followed = Follow(made, sample, request);
+  ExpectTruePoses(followed);
+  const TrajectoryOffset& offset = followed->summary.offset;
+  ASSERT_TRUE(offset.deviation_s);
+  EXPECT_NEAR(static_cast<double>(offset.offset_ns + kLate_ns) * 1e-9, 0.0, 0.003);
+  // Frame 60 is in both; they get no pose of their own.
+  EXPECT_EQ(followed->summary.alignment.used, 14U);
+  EXPECT_EQ(followed->summary.frames.without_marker, MadeTrajectory::kFrames - 2);
+}
+
 TEST(FollowTrajectory, TakesTheClockOfTheCamera) {
   MadeTrajectory made;
   constexpr std::int64_t kClock_ns = 1'403'636'579'763'555'584;
