@@ -42,6 +42,7 @@ struct ReplayedFilm {
   std::int64_t frames = 0;
   std::optional<std::int64_t> clock_start_ns;  ///< Its start by the camera's own clock.
   compositor::Antialiasing antialiasing;       ///< How the objects' edges are smoothed.
+  std::optional<int> samples;  ///< That the renderer gives a pixel; nothing without objects.
 };
 
 /// The composited scene.

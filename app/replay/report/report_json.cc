@@ -137,12 +137,12 @@ Json SurfaceColorsJson(const std::vector<session::SurfaceColorSummary>& colors) 
   return list;
 }
 
-/// Samples or places of a pixel.
-int SamplesOf(const compositor::Antialiasing& antialiasing) {
+/// Samples or places of a pixel; null if nothing was drawn.
+Json SamplesOf(const ReplayedFilm& film) {
   using Method = compositor::AntialiasingMethod;
-  if (antialiasing.method == Method::kNone) return 1;
-  return antialiasing.method == Method::kReference ? antialiasing.places
-                                                   : compositor::RenderTargets::kWantedSamples;
+  if (!film.samples) return {};
+  if (film.antialiasing.method == Method::kNone) return 1;
+  return film.antialiasing.method == Method::kReference ? film.antialiasing.places : *film.samples;
 }
 
 Json LightJson(const session::LightSummary& light) {
@@ -308,9 +308,8 @@ std::string ReportJson(const ReplayReport& report) {
   json["cloudiness"] = CloudinessName(report.scene.cloudiness);
   json["virtual_objects"] = report.scene.virtual_objects;
   json["phantoms"] = report.scene.phantoms;
-  const compositor::Antialiasing& antialiasing = report.film.antialiasing;
-  json["antialiasing"] = {{"method", compositor::NameOf(antialiasing.method)},
-                          {"samples", SamplesOf(antialiasing)}};
+  json["antialiasing"] = {{"method", compositor::NameOf(report.film.antialiasing.method)},
+                          {"samples", SamplesOf(report.film)}};
   json["light"] = report.light ? LightJson(*report.light) : Json();
   if (report.light) json["light"]["changes"] = ChangesJson(report.light_changes);
   json["video_encoder"] =
