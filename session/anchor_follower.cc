@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "session/anchors.h"
+#include "session/following/low_priority.h"
 #include "session/scene_marker.h"
 
 namespace pleinair::session {
@@ -58,7 +59,9 @@ void AnchorFollower::Place() {
   if (!is_due_ || placing_.valid()) return;
   is_due_ = false;
   placing_ = std::async(in_background_ ? std::launch::async : std::launch::deferred,
-                        [camera = camera_, shared = shared_, placed = described_]() mutable {
+                        [camera = camera_, shared = shared_, placed = described_,
+                         in_background = in_background_]() mutable {
+                          if (in_background) LowerPriority();
                           tracker::PlaceAnchorMarkers(camera, shared, &placed);
                           return placed;
                         });
