@@ -63,10 +63,16 @@ Result<LookedAtFile> OpenLookedAtFile(const fs::path& file) {
 Result<KnownLens> LensFor(const LookedAtFile& opened, const FilmLook& look,
                           const LookOptions& options) {
   if (!options.lens) return AssumedLens(opened.size, look.tags, look.file.filename().string());
-  PLEINAIR_ASSIGN_OR_RETURN(devices::FittedCamera fitted,
-                            devices::FitCamera(options.lens->camera, opened.size,
-                                               opened.clockwise_deg, look.file.string()));
-  return KnownLens{fitted.camera, options.lens->from, std::move(fitted.note)};
+  auto fitted = devices::FitCamera(options.lens->camera, opened.size, opened.clockwise_deg,
+                                   look.file.string());
+  if (!fitted && options.lens->is_by_trajectory) {
+    Error error = std::move(fitted).error();
+    error.what += "; it is that of " + options.lens->from;
+    error.remedy = "name the film that belongs to it, or give the film's lens with --calibration";
+    return tl::make_unexpected(std::move(error));
+  }
+  if (!fitted) return tl::make_unexpected(std::move(fitted).error());
+  return KnownLens{fitted->camera, options.lens->from, std::move(fitted->note)};
 }
 
 std::size_t CountOfLooks(ImageSize size, bool is_marker_rare) {

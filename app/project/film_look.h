@@ -20,6 +20,7 @@ struct KnownLens {
   CameraModel camera;
   std::string from;  ///< For a comment: "camera.json", "the focal length in the tags of walk.mov".
   std::string note{};  ///< For the user: how the calibration was scaled or turned; else empty.
+  bool is_by_trajectory = false;
 };
 
 /// The lens assumed for images of this size. The focal length is that of the tags. Without it, it

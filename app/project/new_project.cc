@@ -54,6 +54,11 @@ Result<std::vector<fs::path>> InOrder(const std::vector<fs::path>& files) {
   return films;
 }
 
+/// Name of a file or a folder, also of "scan/".
+std::string NameOfTrajectory(const fs::path& file) {
+  return (file.has_filename() ? file : file.parent_path()).filename().string();
+}
+
 /// The lens of the film, before it is scaled and turned; nothing: to be assumed. Errors: an
 /// unreadable calibration, trajectory or film.
 Result<std::optional<KnownLens>> LensOf(const NewProjectRequest& request, const fs::path& film) {
@@ -68,8 +73,8 @@ Result<std::optional<KnownLens>> LensOf(const NewProjectRequest& request, const 
     return KnownLens{camera, request.calibration->filename().string()};
   }
   if (by_trajectory) {
-    return KnownLens{*by_trajectory,
-                     "the trajectory " + request.trajectory->file.filename().string()};
+    return KnownLens{
+        *by_trajectory, "the trajectory " + NameOfTrajectory(request.trajectory->file), {}, true};
   }
   if (devices::IsImageFile(film)) return std::nullopt;
   return LensOfFilm(film, FamiliesToLookFor(request.marker ? std::optional(request.marker->family)

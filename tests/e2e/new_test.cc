@@ -126,6 +126,26 @@ TEST(New, ScalesACalibrationOfAnotherSize) {
   EXPECT_NEAR(recording["calibration"]["fx"].get<double>(), 605.0, 1e-9);
 }
 
+TEST(New, NamesTheTrajectoryWhoseLensCounts) {
+  const TemporaryFolder folder;
+  WritePhoneFilm(folder / "walk.mov");
+  std::filesystem::create_directories(folder / "scan");
+  const auto make = [&](int height) {
+    WriteFile(folder / "scan/metadata", R"({"fps": 30, "w": 640, "h": )" + std::to_string(height) +
+                                            R"(, "K": [605, 0, 0, 0, 605, 0, 319.5, 239.5, 1],
+                      "poses": [[0, 0, 0, 1, 0, 0, 0], [0, 0, 0, 1, 0.1, 0, 0]]})");
+    std::vector<std::string> arguments = Stated(folder / "walk.mov", folder / "site");
+    arguments.insert(arguments.end(), {"--trajectory", (folder / "scan").string() + "/"});
+    return RunPleinair(arguments);
+  };
+  const RunResult other = make(360);
+  ExpectRefused(other, "that of the trajectory scan; name the film that belongs to it");
+  const RunResult made = make(480);
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_THAT(ReadFile(folder / "site/scene.toml"),
+              HasSubstr("(in recording.json): the trajectory scan\n"));
+}
+
 TEST(New, APhotographAloneIsAProject) {
   const TemporaryFolder folder;
   const fs::path photo = folder / "100%.jpg";
