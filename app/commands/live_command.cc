@@ -222,6 +222,7 @@ Result<void> RunLive(const CLI::App& command, const LiveArguments& arguments) {
                   ? DrawAll(*session, source, arguments, &report)
                   : ShowAll(*session, window, source, arguments, scene, &scene_file, &report);
   ReportEvents(source.camera, arguments.json);
+  if (source.trajectory) source.trajectory->Stop();
   ReportNews(source.trajectory.get(), arguments.json);
   ReportControls(source.camera);
   session->Stop();

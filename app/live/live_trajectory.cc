@@ -10,6 +10,7 @@
 #include "app/check/views_near_sample.h"
 #include "app/replay/given_trajectory.h"
 #include "app/replay/trajectory_warnings.h"
+#include "app/terminal/interrupt.h"
 #include "session/following/low_priority.h"
 #include "session/recording_passes.h"
 
@@ -29,7 +30,9 @@ LiveTrajectory::LiveTrajectory(session::TrajectoryRequest request,
   thread_ = std::thread([this] { Run(); });
 }
 
-LiveTrajectory::~LiveTrajectory() {
+LiveTrajectory::~LiveTrajectory() { Stop(); }
+
+void LiveTrajectory::Stop() {
   {
     const std::lock_guard lock(mutex_);
     stop_ = true;
@@ -81,7 +84,8 @@ Result<LiveTrajectory::Aligned> LiveTrajectory::Align() {
   const session::PassMonitor monitor{
       [this](std::int64_t, std::optional<std::int64_t>) -> Result<void> {
         const std::lock_guard lock(mutex_);
-        if (stop_) return SystemError(request_.trajectory.file, "was not aligned before the end");
+        if (stop_ || InterruptGuard::Interrupted())
+          return SystemError(request_.trajectory.file, "was not aligned before the end");
         return {};
       },
       nullptr};

@@ -41,8 +41,11 @@ class LiveTrajectory {
   std::optional<session::CameraPose> PoseIn(const devices::Frame& frame,
                                             const std::optional<session::CameraPose>& by_marker);
 
-  /// Waits until the trajectory is aligned, or is found not to fit.
+  /// Waits until the trajectory is aligned, is found not to fit, or Ctrl-C is pressed.
   void Wait();
+
+  /// Ends the alignment if it is under way: the marker alone gives poses from then on.
+  void Stop();
 
   /// How the trajectory is aligned, or why it is not, once. Thread-safe.
   std::optional<std::string> TakeNews();
