@@ -23,6 +23,10 @@ constexpr double kCoarseBlurShare = 0.03, kFirstBlur_px = 0.7;
 constexpr double kMaxPlainBlur_px = 1.2;
 /// Minimum visible share: an occluder of one side alone can draw the fit to its own edge.
 constexpr double kPlainVisible = 0.985;
+/// Minimum inner correlation, relative to that which noise leaves; and the contrast of the inside,
+/// in shares of white. Occluders of two sides can draw the fit to both of their edges, where all of
+/// the border seems visible. The inside then does not fit.
+constexpr double kInsideFits = 0.985, kInnerContrast = 0.45;
 constexpr double kMinSide_px = 6.0;
 constexpr double kVisibleCorrelation = 0.7;
 constexpr double kMinVisibleBorder = 0.06;
@@ -220,6 +224,7 @@ std::optional<SgReading> SgReader::DecodeFast(const BlockFitState& guess) {
   std::optional<SgReading> reading =
       Measure(*number, {guess.modules_from_undistorted, plain_blur_px_},
               LastStepPx(windows_.SidePx(guess.modules_from_undistorted)));
+  if (reading && !InsideFits(*reading)) LetContentPull(guess, &*reading);
   if (!reading || reading->visible_fraction < kPlainVisible) return std::nullopt;
   plain_blur_px_ = std::min(reading->blur_px, kMaxPlainBlur_px);
   reading->margin = kPlainMargin;
@@ -261,16 +266,8 @@ std::optional<SgReading> SgReader::MeasureDecoded(DecodedNumber number,
                                                   const BlockFitState& state) {
   std::optional<SgReading> reading = Measure(number.number, state);
   if (!reading) return std::nullopt;
-  if (reading->visible_fraction < kNearlyAllVisible) {
-    // An occluder of the border has edges of its own that resemble the marker's. The decoded
-    // content pulls the fit away from them, if that explains more.
-    BlockFitState by_content = state;
-    if (FitContent(number.number, &by_content)) {
-      std::optional<SgReading> other = Measure(number.number, by_content);
-      // A guess of another size has other blocks, which are not comparable.
-      if (other && other->blocks_along != reading->blocks_along) DescribeAnew(&*other);
-      if (other && Explains(*other, *reading)) reading = std::move(other);
-    }
+  if (reading->visible_fraction < kNearlyAllVisible || !InsideFits(*reading)) {
+    LetContentPull(state, &*reading);
   }
   RefineBeneathCovers(&*reading);
   if (ModulesApart(state.modules_from_undistorted, reading->modules_from_undistorted) >
@@ -287,6 +284,15 @@ std::optional<SgReading> SgReader::MeasureDecoded(DecodedNumber number,
   return reading;
 }
 
+void SgReader::LetContentPull(const BlockFitState& guess, SgReading* reading) {
+  BlockFitState by_content = guess;
+  if (!FitContent(reading->number, &by_content)) return;
+  std::optional<SgReading> other = Measure(reading->number, by_content);
+  // A guess of another size has other blocks, which are not comparable.
+  if (other && other->blocks_along != reading->blocks_along) DescribeAnew(&*other);
+  if (other && Explains(*other, *reading)) *reading = *std::move(other);
+}
+
 void SgReader::DescribeAnew(SgReading* reading) {
   const BlockFitState state{reading->modules_from_undistorted, reading->blur_px};
   PixelWindow window;
@@ -294,6 +300,11 @@ void SgReader::DescribeAnew(SgReading* reading) {
   fitted_.fit.Evaluate(patterns_.OfNumber(reading->number), MarkerPart::kWhole, fitted_.observed,
                        FineBlocks(window, state), state);
   DescribeAppearance(fitted_.fit, reading);
+}
+
+bool SgReader::InsideFits(const SgReading& reading) const {
+  const double noise = fitted_.fit.noise_share() / kInnerContrast;
+  return reading.inner_correlation * std::sqrt(1.0 + noise * noise) > kInsideFits;
 }
 
 bool SgReader::IsNoisy() {

@@ -97,9 +97,15 @@ class SgReader {
   std::optional<SgReading> MeasureDecoded(DecodedNumber number, const BlockFitState& state);
   /// Refines a state by a fit of the content alone.
   bool FitContent(int number, BlockFitState* state);
+  /// Measures again from a fit of the content alone, and keeps what explains more. An occluder of
+  /// the border has edges of its own that resemble the marker's; the content pulls the fit away
+  /// from them.
+  void LetContentPull(const BlockFitState& guess, SgReading* reading);
   /// Recomputes the appearance of a measured marker, in blocks that depend on the first reading
   /// only.
   void DescribeAnew(SgReading* reading);
+  /// Whether the inside of the last fit, of `reading`, correlates as well as its noise allows.
+  bool InsideFits(const SgReading& reading) const;
   /// Whether the marker that was fitted last is so noisy that its pixels' own inverse variances are
   /// misleading.
   bool IsNoisy();

@@ -166,6 +166,30 @@ TEST(SgOcclusion, FindsBordersUnderCoversThatLookLikeInkOrPaper) {
   }
 }
 
+TEST(SgOcclusion, IsNotDrawnToTheEdgesOfPaperThatHidesTwoSidesNarrowly) {
+  // The edges of the paper pass for the square's own, and all of the border seems visible.
+  const CameraModel camera = SgCamera();
+  const auto tracker = MakeSgTracker(camera);
+  for (std::uint32_t seed = 1; seed <= 12; ++seed) {
+    const double hidden = 0.8 + 0.1 * (seed % 6);  // Modules.
+    const bool adjacent = seed > 6;
+    SCOPED_TRACE(testing::Message()
+                 << hidden << " modules, " << (adjacent ? "adjacent" : "opposite"));
+    RenderedMarker marker = SgMarkerAt(camera, 2032, {161, 118}, 120, 10, 30.0 * seed, 15);
+    Lay(
+        [=](Vec2 p) {
+          return p.x < hidden || (adjacent ? p.y < hidden : p.x > sg::kEdge - hidden);
+        },
+        &marker, 0.8);
+    const auto found =
+        Track(tracker.get(),
+              RenderMarkers(camera, {marker}, {.blur_px = 0.5, .noise_codes = 1.0, .seed = seed}));
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0].detection.id, 2032);
+    EXPECT_LT(CornerRms(found[0], TrueCorners(camera, marker)), 0.4);
+  }
+}
+
 struct CoveredContent {
   const char* name;
   bool (*cover)(Vec2);
