@@ -56,6 +56,11 @@ Result<std::vector<session::Observation>> ViewsNearSample(
       FramesNearSample(sample.tracks().frame_times(), sample.tracks().TrackOf(*marker));
   if (near.empty()) return views;
   PLEINAIR_ASSIGN_OR_RETURN(devices::Recording recording, open());
+  const std::optional<std::int64_t> count = recording.frames->FrameCount();
+  // Where it is not known, the sample has all frames.
+  if (!count || !recording.frames->CountsExactly()) return views;
+  std::erase_if(near, [&](std::int64_t frame) { return frame >= *count; });
+  if (near.empty()) return views;
   recording.frames = std::make_unique<SpreadFrames>(std::move(recording.frames), std::move(near));
   // Nothing is drawn here.
   scene::SceneDescription marker_only = sample.scene();

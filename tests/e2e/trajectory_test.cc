@@ -242,7 +242,7 @@ TEST(Trajectory, CheckSaysWhetherItFitsTheFilm) {
   ExpectRefused(RunPleinair({"check", folder / "site"}), "none.tum");
 }
 
-TEST(Trajectory, CheckAndLiveEstimateTheOffsetOfAWalkThatShowsTheMarkerShortly) {
+TEST(Trajectory, CheckEstimatesTheOffsetOfAWalkThatShowsTheMarkerShortly) {
   const TemporaryFolder folder;
   constexpr int kFrames = 240, kFirst = 110, kSeen = 18;
   const auto pose = [](int frame) { return WalkPose(frame - kFirst - 3); };
@@ -251,11 +251,11 @@ TEST(Trajectory, CheckAndLiveEstimateTheOffsetOfAWalkThatShowsTheMarkerShortly) 
     frames[static_cast<std::size_t>(i)].push_back({17, pose(i)});
   }
   CameraModel small = WalkLens();
-  small.width /= 2;
-  small.height /= 2;
-  small.fx = small.fy = 350.0;
-  small.cx = 159.5;
-  small.cy = 119.5;
+  small.width /= 4;
+  small.height /= 4;
+  small.fx = small.fy = 175.0;
+  small.cx = 79.5;
+  small.cy = 59.5;
   WriteMarkerRecording(folder / "site", small, frames, "[trajectory]\nfile = \"walk.tum\"\n");
   std::string walk;
   for (int i = 0; i < kFrames; ++i) {
@@ -267,9 +267,6 @@ TEST(Trajectory, CheckAndLiveEstimateTheOffsetOfAWalkThatShowsTheMarkerShortly) 
   const RunResult check = RunPleinair({"check", folder / "site"});
   EXPECT_THAT(FindingOn("trajectory", check.out),
               testing::ContainsRegex("good: .*offset of its clock -0.(09|10).*, estimated within"));
-  const RunResult live = RunPleinair({"live", "--camera", "file:" + (folder / "site").string(),
-                                      "--headless", "--lossless", "--seconds", "0.1"});
-  EXPECT_THAT(live.err, testing::ContainsRegex("clock -0.(09|10).*, estimated within"));
 }
 
 TEST(Trajectory, LivePlaysARecordingAlongItAndRefusesACamera) {
