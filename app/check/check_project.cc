@@ -12,6 +12,7 @@
 #include "app/replay/given_trajectory.h"
 #include "app/replay/placement_warnings.h"
 #include "app/terminal/interrupt.h"
+#include "app/terminal/interrupt_deadline.h"
 #include "devices/recordings/recording.h"
 #include "files/text_file.h"
 #include "scene/sun_over_place.h"
@@ -83,6 +84,8 @@ TrajectoryFit FitTrajectory(const session::TrajectoryRequest& request,
 
 Result<SiteFacts> LookAtSite(const CheckRequest& request) {
   const InterruptGuard guard;
+  const InterruptDeadline deadline(
+      request.project.string(), [] {}, "nothing was checked");
   const session::PassMonitor monitor{[&](std::int64_t, std::optional<std::int64_t>) {
                                        return CheckInterrupt(request.project.string());
                                      },

@@ -29,6 +29,7 @@
 #include "app/options/picture_size.h"
 #include "app/replay/replay.h"
 #include "app/terminal/interrupt.h"
+#include "app/terminal/interrupt_deadline.h"
 #include "export/images/image_writer.h"
 #ifdef PLEINAIR_WINDOW
 #include "app/window/live_window.h"
@@ -215,8 +216,11 @@ Result<void> RunLive(const CLI::App& command, const LiveArguments& arguments) {
   }
   options.source.trajectory = source.trajectory;
   const InterruptGuard guard;
+  std::optional<InterruptDeadline> deadline(
+      std::in_place, arguments.input.camera, [] {}, "no image was composed");
   PLEINAIR_ASSIGN_OR_RETURN(auto session,
                             LiveSession::Create(std::move(source.frames), std::move(options)));
+  deadline.reset();
   LiveReport report(arguments.report_every_s.value_or(arguments.json ? kReportEvery_s : 0.0));
   auto last = arguments.headless
                   ? DrawAll(*session, source, arguments, &report)

@@ -40,13 +40,13 @@ Result<std::unique_ptr<LiveSession>> LiveSession::Create(
 }
 
 Result<void> LiveSession::Prepare() {
-  if (options_.record) PLEINAIR_RETURN_IF_ERROR(recording_.Start(*options_.record));
   session::PipelineOptions pipeline{.composer = options_.composer, .light = options_.light};
   pipeline.refine_markers = options_.lossless || options_.output;
   if (!options_.lossless) pipeline.kept_observations = kObservationsKept;
   pipeline.places_anchors_in_background = !options_.lossless;
   PLEINAIR_ASSIGN_OR_RETURN(pipeline_,
                             session::Pipeline::Create(options_.camera, options_.scene, pipeline));
+  if (options_.record) PLEINAIR_RETURN_IF_ERROR(recording_.Start(*options_.record));
   PLEINAIR_ASSIGN_OR_RETURN(sightings_, SightingFiles::Create(options_.detections, options_.output,
                                                               options_.camera, options_.scene));
   session::SceneRenderer& renderer = pipeline_->renderer();

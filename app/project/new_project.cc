@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <optional>
 #include <utility>
 
 #include "app/project/first_picture.h"
@@ -12,6 +13,7 @@
 #include "app/project/scene_text.h"
 #include "app/replay/given_trajectory.h"
 #include "app/terminal/interrupt.h"
+#include "app/terminal/interrupt_deadline.h"
 #include "devices/calibration/calibration.h"
 #include "devices/images/image_file.h"
 #include "scene/scene_facts.h"
@@ -138,9 +140,11 @@ Result<NewProject> MakeProject(const NewProjectRequest& request, Questions* ques
   PLEINAIR_ASSIGN_OR_RETURN(const scene::SceneDescription description,
                             Understand(files.scene_toml, request.folder));
   const InterruptGuard guard;
+  std::optional<InterruptDeadline> deadline(std::in_place, request.folder.string(), [] {});
   PLEINAIR_ASSIGN_OR_RETURN(
       FirstPicture picture,
       ComposeFirstPicture(footage.film, footage.marker.best_frame, description));
+  deadline.reset();  // The project's files appear together.
   files.first_picture = std::move(picture.image);
   PLEINAIR_RETURN_IF_ERROR(CheckInterrupt(request.folder.string()));
   PLEINAIR_RETURN_IF_ERROR(WriteProject(files, request.folder, request.replaces));
