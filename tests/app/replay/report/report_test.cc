@@ -69,6 +69,21 @@ TEST(Base64, GivesTheVectorsOfRfc4648) {
   EXPECT_EQ(encode("foobar"), "Zm9vYmFy");
 }
 
+TEST(ReportJson, StatesTheSamplesThatTheRendererGave) {
+  ReplayReport report = Example();
+  const auto samples = [&] {
+    return nlohmann::json::parse(ReportJson(report))["antialiasing"]["samples"];
+  };
+  EXPECT_EQ(samples(), nullptr) << "nothing is drawn";
+  report.film.samples = 2;
+  EXPECT_EQ(samples(), 2);
+  report.film.antialiasing.method = compositor::AntialiasingMethod::kNone;
+  EXPECT_EQ(samples(), 1);
+  report.film.antialiasing.method = compositor::AntialiasingMethod::kReference;
+  report.film.antialiasing.places = 16;
+  EXPECT_EQ(samples(), 16);
+}
+
 TEST(ReportJson, StatesThePathAndTheTimings) {
   const auto json = nlohmann::json::parse(ReportJson(Example()));
   EXPECT_EQ(json["frames_with_pose"], 3);
