@@ -155,7 +155,6 @@ void SceneSurfaces::SetShapes(const std::vector<LitMesh>& lit, std::size_t first
     if (is_drawn) ++object;
   }
   placement_.Refresh(surfaces_);
-  objects_sorted_ = false;
 }
 
 std::vector<glm::mat4> SceneSurfaces::ObjectsMoved() const {

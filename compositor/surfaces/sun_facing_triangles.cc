@@ -1,6 +1,7 @@
 #include "compositor/surfaces/sun_facing_triangles.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 
@@ -18,21 +19,40 @@ SunFacingTriangles::SunFacingTriangles(const LitMesh& object)
       indices_(object.indices),
       facing_end_(static_cast<int>(object.indices.size())) {
   SetNormals(object);
+  has_turned_ = false;
 }
 
 void SunFacingTriangles::SetNormals(const LitMesh& object) {
   normals_.clear();
   normals_.reserve(object.normals.size());
   for (const auto& [x, y, z] : object.normals) normals_.emplace_back(x, y, z);
-  sorted_for_.reset();
+  has_turned_ = true;
+}
+
+float SunFacingTriangles::NormalsTurned() const {
+  const std::size_t count = normals_.size();
+  std::vector<float> squares((count + kSortedPerBlock - 1) / kSortedPerBlock);
+  ParallelForBlocks(count, kSortedPerBlock, [&](std::size_t begin, std::size_t end) {
+    float square = 0.0F;
+    for (std::size_t i = begin; i < end; ++i) {
+      const glm::vec3 turn = normals_[i] - sorted_normals_[i];
+      square = std::max(square, glm::dot(turn, turn));
+    }
+    squares[begin / kSortedPerBlock] = square;
+  });
+  return squares.empty() ? 0.0F : std::sqrt(*std::ranges::max_element(squares));
 }
 
 bool SunFacingTriangles::Sort(const glm::vec3& to_sun) {
   const bool no_sun = to_sun == glm::vec3(0.0F);
-  if (sorted_for_ && (to_sun == *sorted_for_ ||
-                      (!no_sun && glm::distance(to_sun, *sorted_for_) < 0.9F * kMargin))) {
-    return false;
+  if (sorted_for_ && no_sun == (*sorted_for_ == glm::vec3(0.0F))) {
+    // Without a sun, the order does not depend on the normals.
+    const float moved = no_sun ? 0.0F : glm::distance(to_sun, *sorted_for_);
+    const float turned = no_sun || !has_turned_ ? 0.0F : NormalsTurned();
+    if (moved + turned < 0.9F * kMargin) return false;
   }
+  if (has_turned_ || sorted_normals_.empty()) sorted_normals_ = normals_;
+  has_turned_ = false;
   sorted_for_ = to_sun;
   const std::size_t triangles = indices_.size() / 3;
   is_away_.resize(triangles);

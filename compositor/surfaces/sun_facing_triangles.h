@@ -16,9 +16,10 @@ class SunFacingTriangles {
  public:
   explicit SunFacingTriangles(const LitMesh& object);
 
-  /// Turns the triangles; the next Sort() sorts.
+  /// Turns the triangles.
   void SetNormals(const LitMesh& object);
-  /// Sorts again if the sun has moved by more than kMargin allows. Returns whether it sorted.
+  /// Sorts again if the sun has moved and normals have turned by more than kMargin allows. Returns
+  /// whether it sorted.
   /// `to_sun`: unit, in the frame of the object's mesh; zero without a sun, which no triangle
   /// faces.
   bool Sort(const glm::vec3& to_sun);
@@ -29,14 +30,18 @@ class SunFacingTriangles {
   int facing_end() const { return facing_end_; }
 
   /// A triangle faces away if the cosine between sun and normal is below −kMargin at all corners.
-  /// The sun may move by some degrees before triangles are sorted again.
+  /// Sun and normals together may move by some degrees before triangles are sorted again.
   static constexpr float kMargin = 0.05F;
 
  private:
   bool is_translucent_ = false;  // The sun shines on the other side too, and through.
-  std::vector<glm::vec3> normals_;
+  std::vector<glm::vec3> normals_, sorted_normals_;  // The latter: when they were last sorted.
   std::vector<std::uint32_t> indices_, turned_away_;
   std::vector<std::uint8_t> is_away_;  // By triangle, while it sorts.
+  /// Max. distance of a normal from that of the last Sort().
+  float NormalsTurned() const;
+
+  bool has_turned_ = false;
   std::optional<glm::vec3> sorted_for_;
   int facing_end_ = 0;
 };

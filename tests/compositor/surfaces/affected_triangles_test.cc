@@ -215,6 +215,23 @@ TEST(SunFacingTriangles, HoldWhileTheSunMovesLessThanTheirMargin) {
   EXPECT_EQ(triangles.facing_end(), 0) << "without a sun";
 }
 
+TEST(SunFacingTriangles, HoldWhileNormalsTurnLessThanTheirMargin) {
+  LitMesh mesh = ObjectRow();
+  SunFacingTriangles triangles(mesh);
+  triangles.Sort({0.0F, 0.0F, 1.0F});
+  const int before = triangles.facing_end();
+  const auto turned = [&](float x, float z) {
+    mesh.normals[0] = mesh.normals[1] = mesh.normals[2] = {x, 0.0F, z};
+    triangles.SetNormals(mesh);
+    return triangles.Sort({0.0F, 0.0F, 1.0F});
+  };
+  EXPECT_TRUE(turned(1.0F, 0.0F));
+  EXPECT_EQ(triangles.facing_end(), before) << "the margin";
+  EXPECT_FALSE(turned(0.9996F, -0.03F));
+  EXPECT_TRUE(turned(0.998F, -0.06F)) << "since it sorted";
+  EXPECT_EQ(triangles.facing_end(), before - 3);
+}
+
 TEST(VisibilityBuffer, TellsPiecesThatDoNotHangTogetherApart) {
   LitMesh mesh = ObjectRow();
   mesh.indices = {0, 1, 2, 2, 1, 3, 6, 7, 8, 4, 8, 5};
