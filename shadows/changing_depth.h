@@ -32,6 +32,8 @@ class ChangingDepth {
   /// besides those of new still casters.
   TexelRect Draw(const std::vector<ChangingCaster>& casters, bool still_is_new, int side, int layer,
                  const gl::GlTexture& depth);
+  /// The depths of still and changing casters. Empty before changing ones were drawn.
+  const Image<float>& depths() const { return drawn_; }
 
  private:
   Image<float> still_;  // Empty until it is needed.

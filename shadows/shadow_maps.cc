@@ -259,8 +259,12 @@ Result<int> ShadowMaps::Redraw(std::span<const ShadowCaster> casters, const Ligh
     const int side = options_.resolutions[i];
     const TexelRect changed = slice.changing.Draw(changing, is_new, side, i, depth_);
     if (!is_new && changed.Empty()) continue;
-    if (Content() == MapContent::kDepthBounds) {
-      DrawBounds(i, is_new ? TexelRect{0, 0, side, side} : changed);
+    if (Content() == MapContent::kDepthBounds && is_new) {
+      DrawBounds(i);
+      slice.changing_bounds.Forget();
+    } else if (Content() == MapContent::kDepthBounds) {
+      slice.changing_bounds.Update(slice.changing.depths(), changed, PyramidLevels(side), i,
+                                   bounds_);
     }
     ++redrawn;
   }
@@ -298,10 +302,9 @@ void ShadowMaps::DrawDepth(int slice, const LightAxes& axes) {
   glDisable(GL_DEPTH_CLAMP);
 }
 
-/// Makes the levels of the pyramid anew where they show these texels of the map.
-void ShadowMaps::DrawBounds(int slice, const TexelRect& texels) {
+/// Makes the levels of the pyramid.
+void ShadowMaps::DrawBounds(int slice) {
   glDisable(GL_DEPTH_TEST);
-  glEnable(GL_SCISSOR_TEST);
   no_vertices_.Bind();
   depth_.Bind(0);
   first_program_.Use();
@@ -312,9 +315,6 @@ void ShadowMaps::DrawBounds(int slice, const TexelRect& texels) {
     targets[level].Bind();
     const int side = options_.resolutions[slice] >> (level + 2);
     glViewport(0, 0, side, side);
-    const auto first = [level](int texel) { return texel >> (level + 2); };
-    const int x = first(texels.x0), y = first(texels.y0);
-    glScissor(x, y, first(texels.x1 - 1) + 1 - x, first(texels.y1 - 1) + 1 - y);
     if (level == 1) {
       bounds_.Bind(0);
       second_program_.Use();
@@ -329,7 +329,6 @@ void ShadowMaps::DrawBounds(int slice, const TexelRect& texels) {
   }
   glTextureParameteri(bounds_.id(), GL_TEXTURE_BASE_LEVEL, 0);
   glTextureParameteri(bounds_.id(), GL_TEXTURE_MAX_LEVEL, 1000);
-  glDisable(GL_SCISSOR_TEST);
   glEnable(GL_DEPTH_TEST);
 }
 

@@ -18,6 +18,7 @@
 #include "gl/texture.h"
 #include "gl/vertex_array.h"
 #include "shadows/changing_depth.h"
+#include "shadows/depth_bounds.h"
 #include "shadows/depth_raster.h"
 #include "shadows/light_window.h"
 #include "shadows/shadow_map_options.h"
@@ -118,6 +119,7 @@ class ShadowMaps {
     gl::GlFramebuffer depth_target;
     std::vector<gl::GlFramebuffer> bounds_targets;  // One per level of the pyramid.
     ChangingDepth changing;                         // Not in `drawn`.
+    DepthBounds changing_bounds;
     gl::GlFramebuffer moments_target;
   };
 
@@ -139,7 +141,7 @@ class ShadowMaps {
   /// Minimum and maximum depth of a map.
   std::pair<double, double> DepthRange(const LightWindow& window, const LightExtent& scene) const;
   void DrawDepth(int slice, const LightAxes& axes);
-  void DrawBounds(int slice, const TexelRect& texels);
+  void DrawBounds(int slice);
   void DrawMoments(int slice);
 
   ShadowMapOptions options_;
