@@ -87,20 +87,54 @@ void DepthRaster::Draw(Image<float>* depths) const {
   const auto processors = std::clamp(std::thread::hardware_concurrency(), 1U, 4U);
   const auto bands = static_cast<int>(
       std::clamp<std::size_t>(indices_.size() / (3 * kTrianglesPerBand), 1, processors));
+  std::vector<std::uint8_t> band_of(static_cast<std::size_t>(bounds_.height()));
+  const auto first_row = [&](int band) { return bounds_.height() * band / bands; };
+  for (int band = 0; band < bands; ++band) {
+    std::fill(band_of.begin() + first_row(band), band_of.begin() + first_row(band + 1),
+              static_cast<std::uint8_t>(band));
+  }
+  const auto triangles = TrianglesOf(band_of);
   ParallelFor(static_cast<std::size_t>(bands), 0, [&](std::size_t band) {
     const auto i = static_cast<int>(band);
-    DrawRows(bounds_.y0 + bounds_.height() * i / bands,
-             bounds_.y0 + bounds_.height() * (i + 1) / bands, depths);
+    for (const auto& block : triangles) {
+      DrawRows(block[band], bounds_.y0 + first_row(i), bounds_.y0 + first_row(i + 1), depths);
+    }
   });
 }
 
-void DepthRaster::DrawRows(int first, int last, Image<float>* depths) const {
-  for (std::size_t i = 0; i + 2 < indices_.size(); i += 3) {
+std::vector<std::vector<std::vector<std::uint32_t>>> DepthRaster::TrianglesOf(
+    const std::vector<std::uint8_t>& bands) const {
+  const std::size_t count = indices_.size() / 3;
+  std::vector<std::vector<std::vector<std::uint32_t>>> triangles((count + kCornersPerBlock - 1) /
+                                                                 kCornersPerBlock);
+  ParallelForBlocks(count, kCornersPerBlock, [&](std::size_t begin, std::size_t end) {
+    auto& own = triangles[begin / kCornersPerBlock];
+    own.resize(std::size_t{1} + bands.back());
+    for (auto& band : own) band.reserve((end - begin) / 2);
+    for (std::size_t i = begin; i < end; ++i) {
+      const Corner &a = corners_[indices_[3 * i]], &b = corners_[indices_[3 * i + 1]],
+                   &c = corners_[indices_[3 * i + 2]];
+      const std::int64_t abx = b.x - a.x, aby = b.y - a.y, acx = c.x - a.x, acy = c.y - a.y;
+      if (abx * acy - aby * acx <= 0) continue;
+      const int y0 = std::max(FirstCentre(std::min({a.y, b.y, c.y})), bounds_.y0) - bounds_.y0;
+      const int y1 = std::min(FirstCentre(std::max({a.y, b.y, c.y}) + 1), bounds_.y1) - bounds_.y0;
+      if (y0 >= y1) continue;
+      const std::size_t last = bands[static_cast<std::size_t>(y1) - 1];
+      for (std::size_t band = bands[static_cast<std::size_t>(y0)]; band <= last; ++band) {
+        own[band].push_back(static_cast<std::uint32_t>(3 * i));
+      }
+    }
+  });
+  return triangles;
+}
+
+void DepthRaster::DrawRows(const std::vector<std::uint32_t>& triangles, int first, int last,
+                           Image<float>* depths) const {
+  for (const std::uint32_t i : triangles) {
     const Corner &a = corners_[indices_[i]], &b = corners_[indices_[i + 1]],
                  &c = corners_[indices_[i + 2]];
     const std::int64_t abx = b.x - a.x, aby = b.y - a.y, acx = c.x - a.x, acy = c.y - a.y;
     const std::int64_t area = abx * acy - aby * acx;
-    if (area <= 0) continue;
     const int y0 = std::max(FirstCentre(std::min({a.y, b.y, c.y})), first);
     const int y1 = std::min(FirstCentre(std::max({a.y, b.y, c.y}) + 1), last);
     const int x0 = std::max(FirstCentre(std::min({a.x, b.x, c.x})), bounds_.x0);

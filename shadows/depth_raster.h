@@ -51,7 +51,12 @@ class DepthRaster {
     std::int32_t x = 0, y = 0;  ///< In 1/256 texel.
     float depth = 0.0F;
   };
-  void DrawRows(int first, int last, Image<float>* depths) const;
+  /// Numbers of the triangles that run counter-clockwise and reach a row of each band, in blocks:
+  /// [block][band]. `bands`: by row of bounds().
+  std::vector<std::vector<std::vector<std::uint32_t>>> TrianglesOf(
+      const std::vector<std::uint8_t>& bands) const;
+  void DrawRows(const std::vector<std::uint32_t>& triangles, int first, int last,
+                Image<float>* depths) const;
 
   std::span<const std::uint32_t> indices_;
   std::vector<Corner> corners_;  ///< By position.
