@@ -13,8 +13,8 @@ namespace pleinair::shadows {
 /// small levels.
 class DepthBounds {
  public:
-  /// Brings the texels of one layer of `bounds` up to date that show the `changed` ones of
-  /// `depths`; all of them at the first call and after Forget(). `levels`: of the pyramid.
+  /// Brings those texels of one layer of `bounds` up to date that show the `changed` ones of
+  /// `depths`. At the first call and after Forget() these are all. `levels`: of the pyramid.
   void Update(const Image<float>& depths, const TexelRect& changed, int levels, int layer,
               const gl::GlTexture& bounds);
   /// Depths have changed elsewhere.
