@@ -338,7 +338,12 @@ AffectedTiles GlComposer::DrawCoarse(const SurfacePrograms& programs, const shad
 /// Brings shapes and shadow maps up to date, and classifies the surfaces by them.
 Result<shadows::View> GlComposer::UpdateScene(const Transform<Camera, Marker>& camera_from_marker) {
   if (changing_ && !changing_->meshes().empty()) {
-    if (changing_->Update()) {
+    using Changed = ChangingBodies::Changed;
+    PLEINAIR_ASSIGN_OR_RETURN(const Changed changed, changing_->Update());
+    if (changed == Changed::kTriangles) {
+      PLEINAIR_RETURN_IF_ERROR(surfaces_.Replace(changing_->meshes()));
+    }
+    if (changed != Changed::kNothing) {
       surfaces_.SetShapes(changing_->meshes(), changing_->first_body());
     }
     PLEINAIR_RETURN_IF_ERROR(surfaces_.SetMix(changing_->meshes(), light_.mix()));

@@ -46,10 +46,11 @@ class Composer {
   virtual void MoveModel(int placed_model, const Mat3& linear, Vec3 translation_m) = 0;
 
   /// Changes the shape of a placed model that has a playback, from the next image on. `shape` has
-  /// the positions and normals of ModelAnimation::At(), for the same triangles. Shadows and the
-  /// bodies' own light follow at once. The bodies' effect on the indirect illumination of other
-  /// surfaces follows within some images (docs/method/changing-surfaces.md). Ignored for other
-  /// models.
+  /// the positions and normals of ModelAnimation::At(). Shadows and the bodies' own light follow at
+  /// once. The bodies' effect on the indirect illumination of other surfaces follows within some
+  /// images (docs/method/changing-surfaces.md). Other triangles (MeshShape::indices) stay until the
+  /// next ones. They have no texture coordinates, and cost about as much as a new light. Ignored
+  /// for other models.
   virtual void SetShape(int placed_model, std::span<const MeshShape> shape) = 0;
 
   /// Samples per rendered pixel that the renderer offers: 4, or its maximum if that is lower.

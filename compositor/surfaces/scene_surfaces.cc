@@ -79,6 +79,13 @@ Result<void> SceneSurfaces::SetLit(const std::vector<LitMesh>& lit) {
   return SetMix(lit, {});
 }
 
+Result<void> SceneSurfaces::Replace(const std::vector<LitMesh>& lit) {
+  PLEINAIR_RETURN_IF_ERROR(SetSurfaces(lit));
+  placement_.Refresh(surfaces_);
+  objects_placed_ = false;
+  return {};
+}
+
 Result<void> SceneSurfaces::SetMix(const std::vector<LitMesh>& lit, const LightMix& mix) {
   reduction_.Invalidate();
   std::vector<const LitMesh*> phantoms, objects;

@@ -31,6 +31,9 @@ class SceneSurfaces {
   /// As Composer::SetLight(), SetLightMix() and MoveModel().
   Result<void> SetLit(const std::vector<LitMesh>& lit);
   Result<void> SetMix(const std::vector<LitMesh>& lit, const LightMix& mix);
+  /// Takes other surfaces; models that have moved stay there. SetMix() must follow. Errors: no
+  /// memory.
+  Result<void> Replace(const std::vector<LitMesh>& lit);
   /// Sets the colors of sun and sky, by which leaves change theirs.
   void SetLightColors(LinearRgb sun, LinearRgb sky);
   void Move(int placed_model, const Mat3& linear, Vec3 translation_m);

@@ -94,15 +94,39 @@ class MovingCube {
     ASSERT_TRUE(composer_->SetLight(solver->Solve(day, Mat3{}), day, Mat3{}, {1, 1, 1}));
   }
 
+  /// Composes an image of the cube and of a second one beside it, which is of the same body.
+  RgbImage Twice(double right_m) {
+    std::vector<MeshShape> shape = cube_.playback.animation->At(0.0);
+    shape[0].indices = cube_.model->meshes[0].indices;
+    const MeshShape first = shape[0];
+    const auto count = static_cast<std::uint32_t>(first.positions.size());
+    for (auto position : first.positions) {
+      position[0] += static_cast<float>(right_m);
+      shape[0].positions.push_back(position);
+    }
+    shape[0].normals.insert(shape[0].normals.end(), first.normals.begin(), first.normals.end());
+    for (const std::uint32_t index : first.indices) shape[0].indices.push_back(count + index);
+    return Composed(shape);
+  }
+  /// Composes an image of one cube, whatever its triangles were.
+  RgbImage Once() {
+    std::vector<MeshShape> shape = cube_.playback.animation->At(0.0);
+    shape[0].indices = cube_.model->meshes[0].indices;
+    return Composed(shape);
+  }
   /// Composes an image with the cube moved to the right.
   RgbImage At(double right_m) {
     std::vector<MeshShape> shape = cube_.playback.animation->At(0.0);
     for (auto& position : shape[0].positions) position[0] += static_cast<float>(right_m);
+    return Composed(shape);
+  }
+
+ private:
+  RgbImage Composed(const std::vector<MeshShape>& shape) {
     composer_->SetShape(1, shape);
     return composer_->Compose(EvenPicture(150).view(), kFromAbove, exposure_).value();
   }
 
- private:
   PlacedModel cube_ = kCube;
   LinearRgb exposure_{kExposureScale, kExposureScale, kExposureScale};
   std::unique_ptr<Composer> composer_;
@@ -123,6 +147,20 @@ TEST(ChangingSurface, TakesItsShadowAlong) {
   for (int i = 0; i < 40; ++i) after = cube.At(0.7);
   EXPECT_NEAR(SeenAt(after, in_shadow), ground, 0.01);
   EXPECT_NEAR(SeenAt(after, {}), ground, 0.01);
+}
+
+TEST(ChangingSurface, TakesOtherTriangles) {
+  MovingCube cube;
+  cube.At(0.0);
+  const Vec3 on_top{0, 0, 0.3}, in_shadow{0, 0.3, 0}, second{0.7, 0, 0};
+  const RgbImage two = cube.Twice(second.x);
+  const double ground = SeenAt(EvenPicture(150), {});
+  EXPECT_NEAR(SeenAt(two, on_top), Level(0.5), 0.02);
+  EXPECT_NEAR(SeenAt(two, on_top + second), Level(0.5), 0.02);
+  EXPECT_LT(SeenAt(two, in_shadow), 0.4 * ground);
+  EXPECT_LT(SeenAt(two, in_shadow + second), 0.4 * ground);
+  // Again the triangles of one cube.
+  EXPECT_NEAR(SeenAt(cube.Once(), in_shadow + second), ground, 0.05);
 }
 
 TEST(ChangingSurface, LetsLightThroughLeaves) {

@@ -142,6 +142,37 @@ void BodyProbes::Forget() {
   for (Probe& probe : probes_) probe.rays = 0.0F;
 }
 
+void BodyProbes::StartFrom(const BodyProbes& others) {
+  ParallelFor((probes_.size() + kProbesPerBlock - 1) / kProbesPerBlock, 0, [&](std::size_t block) {
+    const std::size_t last = std::min(probes_.size(), (block + 1) * kProbesPerBlock);
+    for (std::size_t i = block * kProbesPerBlock; i < last; ++i) {
+      Probe& probe = probes_[i];
+      const Side& side = sides_[probe.side];
+      const std::size_t own = i - side.first_probe;
+      std::size_t vertex = own;
+      if (side.groups) {
+        vertex = side.groups->members[own == 0 ? 0 : side.groups->member_ends[own - 1]];
+      }
+      const Vec3 place = WideVector(side.surface->positions[vertex]);
+      const Vec3 normal = WideVector(side.surface->normals[vertex]) * (side.back ? -1.0 : 1.0);
+      const Probe* nearest = nullptr;
+      double least_m = 0.0;
+      for (const Probe& other : others.probes_) {
+        if (other.rays <= 0.0F || Dot(WideVector(other.normal), normal) < 0.0) continue;
+        const double distance_m = Norm(WideVector(other.place) - place);
+        if (nearest != nullptr && distance_m >= least_m) continue;
+        nearest = &other;
+        least_m = distance_m;
+      }
+      if (nearest == nullptr) continue;
+      const std::uint32_t probe_side = probe.side;
+      probe = *nearest;
+      probe.side = probe_side;
+      probe.rays = std::min(probe.rays, static_cast<float>(kRays));
+    }
+  });
+}
+
 void BodyProbes::Trace(const Surroundings& surroundings, std::size_t index) {
   Probe& probe = probes_[index];
   const Side& side = sides_[probe.side];

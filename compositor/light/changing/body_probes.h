@@ -31,6 +31,8 @@ class BodyProbes {
   std::size_t size() const { return probes_.size(); }
   /// Forgets all rays: the next ones count alone.
   void Forget();
+  /// Takes the light of the nearest of other probes that face the same way, as that of few rays.
+  void StartFrom(const BodyProbes& others);
 
   /// One triangle per three patches that meet, for rays. Empty for a mesh of
   /// ChangingMesh::DrawnMeshes() with few triangles.

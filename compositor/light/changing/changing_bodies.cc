@@ -48,8 +48,15 @@ class TracedBodies : public ChangingBodies {
   bool Has(int placed_model) const override { return Find(placed_model) != nullptr; }
 
   void SetShape(int placed_model, std::span<const MeshShape> shape) override {
-    if (ChangingMesh* body = Find(placed_model)) body->SetShape(shape);
+    ChangingMesh* body = Find(placed_model);
+    if (body == nullptr) return;
     state_.has_new_shape = true;
+    if (!ChangingMesh::HasTriangles(shape)) {
+      body->SetShape(shape);
+      return;
+    }
+    *body = body->WithTriangles(shape);
+    state_.has_new_triangles = true;
   }
 
   void Move(int placed_model, const Mat3& linear, Vec3 translation_m) override {
@@ -58,6 +65,10 @@ class TracedBodies : public ChangingBodies {
 
   Result<void> SetLight(const std::vector<LitMesh>& still, const sky::SkyModel& daylight,
                         const Mat3& marker_from_world) override {
+    if (state_.has_new_triangles && contacts_) {
+      PLEINAIR_RETURN_IF_ERROR(MakeBodies());
+      state_.has_new_triangles = false;
+    }
     const bool is_new = !HaveSameGeometry(still_, still) || still_.empty();
     still_ = still;
     surroundings_.SetDaylight(daylight, marker_from_world);
@@ -81,16 +92,23 @@ class TracedBodies : public ChangingBodies {
     return {};
   }
 
-  bool Update() override {
-    if (!contacts_) return false;
-    const bool changed = state_.has_new_shape && Follow();
-    state_.has_new_shape = false;
+  Result<Changed> Update() override {
+    if (!contacts_) return Changed::kNothing;
+    Changed changed = Changed::kNothing;
+    if (state_.has_new_triangles) {
+      PLEINAIR_RETURN_IF_ERROR(MakeBodies());
+      changed = Changed::kTriangles;
+    } else if (state_.has_new_shape && Follow()) {
+      changed = Changed::kShape;
+    }
+    state_.has_new_shape = state_.has_new_triangles = false;
     for (; state_.rounds > 0; --state_.rounds) {
       Refresh(probes_->size(), contacts_->size());
       // The rays of the first round end at surfaces with their light of before.
       if (state_.rounds == kFirstRounds) Forget();
     }
-    Refresh(changed ? kProbesPerFrame : kProbesPerFrameAtRest, kVerticesPerFrame);
+    Refresh(changed == Changed::kNothing ? kProbesPerFrameAtRest : kProbesPerFrame,
+            kVerticesPerFrame);
     return changed;
   }
 
@@ -99,7 +117,7 @@ class TracedBodies : public ChangingBodies {
 
  private:
   struct State {
-    bool has_new_shape = true;
+    bool has_new_shape = true, has_new_triangles = false;
     int rounds = 0;    // Over all probes, before the next frame.
     Vec3 to_sun;       // When all light was last traced; `lux`, too.
     double lux = 0.0;  // The unshaded sun and the sky together.
@@ -134,7 +152,28 @@ class TracedBodies : public ChangingBodies {
                    std::make_move_iterator(meshes_.end()));
     }
     drawn_ = drawn.size();
-    meshes_ = still_;
+    contacts_.emplace(still_);
+    return Place(still_, std::move(drawn));
+  }
+
+  /// Makes the bodies' surfaces again, of other triangles. Still surfaces keep their light.
+  Result<void> MakeBodies() {
+    BodyProbes probes(bodies_);
+    probes.StartFrom(*probes_);
+    probes_.emplace(std::move(probes));
+    std::vector<LitMesh> still(std::make_move_iterator(Still().begin()),
+                               std::make_move_iterator(Still().end()));
+    std::vector<LitMesh> drawn;
+    for (const ChangingMesh& body : bodies_) {
+      for (LitMesh& mesh : body.DrawnMeshes()) drawn.push_back(std::move(mesh));
+    }
+    drawn_ = drawn.size();
+    return Place(std::move(still), std::move(drawn));
+  }
+
+  /// Takes surfaces, of which rays then see the still ones and the bodies.
+  Result<void> Place(std::vector<LitMesh> still, std::vector<LitMesh> drawn) {
+    meshes_ = std::move(still);
     meshes_.insert(meshes_.end(), std::make_move_iterator(drawn.begin()),
                    std::make_move_iterator(drawn.end()));
     PLEINAIR_RETURN_IF_ERROR(surroundings_.SetStill(PairedSides(Still())));
@@ -143,7 +182,6 @@ class TracedBodies : public ChangingBodies {
       body.coarse = probes_->CoarseTriangles(static_cast<std::size_t>(body.front - Drawn().data()));
     }
     PLEINAIR_RETURN_IF_ERROR(surroundings_.SetBodies(std::move(bodies)));
-    contacts_.emplace(still_);
     contacts_->FollowBodies(Drawn(), 0.0);
     return {};
   }

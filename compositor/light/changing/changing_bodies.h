@@ -34,8 +34,10 @@ class ChangingBodies {
   /// memory.
   virtual Result<void> SetLight(const std::vector<LitMesh>& still, const sky::SkyModel& daylight,
                                 const Mat3& marker_from_world) = 0;
-  /// Follows the shapes and refreshes a part of the light. Returns whether a shape changed.
-  virtual bool Update() = 0;
+  /// What Update() changed.
+  enum class Changed { kNothing, kShape, kTriangles };
+  /// Follows the shapes and refreshes a part of the light. Errors: no memory for other triangles.
+  virtual Result<Changed> Update() = 0;
 
   /// All surfaces in their light: the still ones, then the bodies from first_body() on.
   virtual const std::vector<LitMesh>& meshes() const = 0;

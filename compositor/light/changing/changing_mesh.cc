@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <memory>
 #include <unordered_set>
 #include <utility>
 
@@ -56,9 +57,8 @@ Float3 Opposite(const Float3& v) { return {-v[0], -v[1], -v[2]}; }
 
 ChangingMesh::ChangingMesh(const PlacedModel& placed, int placed_model)
     : placed_model_(placed_model),
-      placed_linear_(placed.linear),
+      placed_(placed),
       linear_(placed.linear),
-      placed_translation_m_(placed.translation_m),
       translation_m_(placed.translation_m) {
   std::vector<TracedSurface> traced = TracedSurfaces(placed, placed_model);
   const Mat3 cofactors = CofactorsOf(placed.linear);
@@ -100,8 +100,32 @@ void ChangingMesh::Split(double max_edge_m, SurfaceMesh* surface, Source* source
 }
 
 void ChangingMesh::Move(const Mat3& linear, Vec3 translation_m) {
-  linear_ = linear * placed_linear_;
-  translation_m_ = linear * placed_translation_m_ + translation_m;
+  linear_ = linear * placed_.linear;
+  translation_m_ = linear * placed_.translation_m + translation_m;
+}
+
+bool ChangingMesh::HasTriangles(std::span<const MeshShape> shape) {
+  return std::ranges::any_of(shape, [](const MeshShape& mesh) { return !mesh.indices.empty(); });
+}
+
+ChangingMesh ChangingMesh::WithTriangles(std::span<const MeshShape> shape) const {
+  auto model = std::make_shared<Model>(*placed_.model);
+  for (std::size_t i = 0; i < model->meshes.size(); ++i) {
+    Mesh& mesh = model->meshes[i];
+    if (shape[i].indices.empty()) continue;
+    mesh.positions = shape[i].positions;
+    mesh.normals = shape[i].normals;
+    mesh.indices = shape[i].indices;
+    mesh.uvs.clear();
+    mesh.details.clear();
+  }
+  PlacedModel placed = placed_;
+  placed.model = std::move(model);
+  ChangingMesh other(placed, placed_model_);
+  other.linear_ = linear_;
+  other.translation_m_ = translation_m_;
+  other.SetShape(shape);
+  return other;
 }
 
 void ChangingMesh::SetShape(std::span<const MeshShape> shape) {

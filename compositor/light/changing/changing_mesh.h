@@ -28,6 +28,12 @@ class ChangingMesh {
   /// next SetShape() on.
   void Move(const Mat3& linear, Vec3 translation_m);
 
+  /// Returns whether a shape has other triangles than the surfaces.
+  static bool HasTriangles(std::span<const MeshShape> shape);
+  /// The same body with the triangles of `shape`, and without its texture coordinates. `shape`: one
+  /// entry per mesh of the model.
+  ChangingMesh WithTriangles(std::span<const MeshShape> shape) const;
+
   /// The surfaces in their current shape. Both sides of an open one are one surface.
   std::span<const SurfaceMesh> surfaces() const { return surfaces_; }
   /// What to draw, without light: one mesh per surface, and a second for the back of an open one.
@@ -51,8 +57,9 @@ class ChangingMesh {
   static void Split(double max_edge_m, SurfaceMesh* surface, Source* source);
 
   int placed_model_;
-  Mat3 placed_linear_, linear_;
-  Vec3 placed_translation_m_, translation_m_;
+  PlacedModel placed_;  // With the triangles of the surfaces.
+  Mat3 linear_;
+  Vec3 translation_m_;
   std::vector<SurfaceMesh> surfaces_;
   std::vector<Source> sources_;  // One per surface.
 };

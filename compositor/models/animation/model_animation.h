@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -15,6 +16,9 @@ namespace pleinair::compositor {
 struct MeshShape {
   std::vector<std::array<float, 3>> positions;  ///< As Mesh::positions.
   std::vector<std::array<float, 3>> normals;    ///< Unit, one per position.
+  /// Other triangles than those of the mesh, three corners each, for any number of positions.
+  /// Empty: the same triangles as before.
+  std::vector<std::uint32_t> indices = {};
 };
 
 /// A model that changes its shape with time but keeps its triangles. Thread-safe.
