@@ -62,6 +62,7 @@ Result<MarkerViewCollector> Collect(PictureStream& pictures, const std::string& 
       PLEINAIR_ASSIGN_OR_RETURN(collector, MarkerViewCollector::Create(*size, options));
     }
     std::vector<tracker::NamedImage> images;
+    images.reserve(read.size());
     for (const NamedPicture& picture : read) {
       images.push_back({picture.name, picture.grey.view()});
     }

@@ -145,6 +145,7 @@ Result<FilmLook> LookAt(const fs::path& file, const LookOptions& options) {
     PLEINAIR_ASSIGN_OR_RETURN(const std::vector<devices::Frame> frames,
                               ReadFrames(*opened.frames, std::span(indices).subspan(first, count)));
     std::vector<ImageView<const std::uint8_t>> greys;
+    greys.reserve(frames.size());
     for (const devices::Frame& frame : frames) greys.push_back(frame.grey.view());
     PLEINAIR_ASSIGN_OR_RETURN(auto markers, trackers.Track(greys));
     for (std::size_t i = 0; i < frames.size(); ++i) {

@@ -78,6 +78,7 @@ Result<std::vector<UnmeasuredMarkers>> MarkerViewCollector::Find(
     return trackers_->Find(greys);
   }
   std::vector<UnmeasuredMarkers> found;
+  found.reserve(images.size());
   for (const NamedImage& image : images) {
     PLEINAIR_ASSIGN_OR_RETURN(UnmeasuredMarkers markers, tracker_->Find(image.grey));
     found.push_back(std::move(markers));
