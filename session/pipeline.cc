@@ -7,6 +7,7 @@
 #include "base/parallel_for.h"
 #include "base/scaled_camera.h"
 #include "devices/images/resize_image.h"
+#include "devices/images/rounded_image.h"
 #include "session/anchor_follower.h"
 #include "session/marker_refiner.h"
 #include "session/scene_marker.h"
@@ -180,8 +181,12 @@ void Pipeline::Resize(devices::Frame* frame) const {
 
 void Pipeline::ResizeInto(const devices::Frame& frame, RgbImage* rgb, DeepImage* deep) const {
   const int width = output_camera_.width, height = output_camera_.height;
-  *rgb = devices::ResizeRgb(frame.rgb.view(), width, height);
-  *deep = frame.deep.empty() ? DeepImage() : devices::ResizeDeep(frame.deep.view(), width, height);
+  if (frame.deep.empty()) {
+    *rgb = devices::ResizeRgb(frame.rgb.view(), width, height);
+    return;
+  }
+  *deep = devices::ResizeDeep(frame.deep.view(), width, height);
+  *rgb = devices::RoundedTo8Bits(*deep);
 }
 
 bool Pipeline::MeterLightOn(const MarkerName& marker) {

@@ -37,11 +37,12 @@ Result<std::vector<Value>> OfEachImage(const std::vector<std::unique_ptr<Tracker
 }  // namespace
 
 Result<ParallelTrackers> ParallelTrackers::Create(const CameraModel& camera,
-                                                  const TrackerOptions& options) {
+                                                  const TrackerOptions& options,
+                                                  std::size_t images) {
   CHECK_EQ(options.consecutive_frames, false);
   ParallelTrackers parallel;
-  const unsigned threads = std::max(1U, std::thread::hardware_concurrency());
-  for (unsigned i = 0; i < threads; ++i) {
+  const auto threads = static_cast<std::size_t>(std::thread::hardware_concurrency());
+  for (std::size_t i = 0; i < std::clamp<std::size_t>(threads, 1, images); ++i) {
     PLEINAIR_ASSIGN_OR_RETURN(auto tracker, Tracker::Create(camera, options));
     parallel.trackers_.push_back(std::move(tracker));
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -14,13 +15,14 @@
 
 namespace pleinair::tracker {
 
-/// Detects markers in images that do not follow each other, on all processors. The results are
+/// Detects markers in images that do not follow each other, several at a time. The results are
 /// those of one Tracker, image by image, on any number of processors.
 class ParallelTrackers {
  public:
-  /// Consecutive frames are not for it: options.consecutive_frames must be false. Errors as those
-  /// of Tracker::Create().
-  static Result<ParallelTrackers> Create(const CameraModel& camera, const TrackerOptions& options);
+  /// `images`: at most so many are given at a time. Consecutive frames are not for it:
+  /// options.consecutive_frames must be false. Errors: those of Tracker::Create().
+  static Result<ParallelTrackers> Create(const CameraModel& camera, const TrackerOptions& options,
+                                         std::size_t images);
 
   /// Tracker::Find() of each image. Errors: those of the first image that has one.
   Result<std::vector<UnmeasuredMarkers>> Find(std::span<const ImageView<const std::uint8_t>> greys);

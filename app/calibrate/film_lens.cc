@@ -20,8 +20,6 @@ using tracker::MarkerViewCollector;
 /// than this share of its deviation.
 constexpr int kMaxRounds = 5;
 constexpr double kSettled = 0.1;
-/// Images that do not follow each other are searched in such groups, on all processors.
-constexpr std::size_t kSearchedAtOnce = 8;
 /// A larger difference between tag and film is reported: the film is cropped, or the tag is wrong.
 constexpr double kTagDiffers = 0.03;
 
@@ -50,7 +48,7 @@ Result<std::vector<NamedPicture>> ReadPictures(PictureStream& pictures, std::siz
 Result<MarkerViewCollector> Collect(PictureStream& pictures, const std::string& source,
                                     const tracker::MarkerViewOptions& options, ImageSize* size,
                                     FilmLens* film) {
-  const std::size_t at_once = options.consecutive_frames ? 1 : kSearchedAtOnce;
+  const std::size_t at_once = options.consecutive_frames ? 1 : options.images_at_once;
   std::optional<MarkerViewCollector> collector;
   ProgressBar bar("Finding markers", pictures.Count(), "images");
   while (true) {

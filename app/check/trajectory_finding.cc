@@ -49,7 +49,8 @@ SiteFinding TrajectoryFinding(const TrajectoryFit& fit, std::int64_t looked_at) 
     finding.remedy = "check offset_s, max_gap_s, and that it belongs to this film";
   } else if (HasAssumedOffset(summary)) {
     finding.verdict = SiteVerdict::kDoubtful;
-    finding.remedy = "state offset_s, or show the marker for a second while the camera moves";
+    finding.remedy =
+        "state offset_s, or show an S-G marker or AprilTag for a second while the camera moves";
   }
   return finding;
 }

@@ -32,7 +32,7 @@ std::vector<std::int64_t> FramesNearSample(const std::vector<session::FrameTime>
   const auto each_side = static_cast<std::int64_t>(kViewsOfOffset / chosen.size() / 2);
   const double reach = kReach_s * frames / seconds;
   const std::int64_t step =
-      std::max<std::int64_t>(1, std::llround(reach / static_cast<double>(each_side)));
+      std::max<std::int64_t>(1, static_cast<std::int64_t>(reach / static_cast<double>(each_side)));
   std::set<std::int64_t> near;
   for (const std::size_t i : chosen) {
     for (std::int64_t k = -each_side; k <= each_side; ++k) {

@@ -13,9 +13,9 @@
 
 namespace pleinair::app {
 
-/// Indices of at most 24 frames within 0.6 s of those of a sample that show the marker. They ascend
-/// and leave out the sample's own. Empty if the sample itself shows it in 24 frames,
-/// or in none. `track`: the frames of the sample that show the marker.
+/// Indices of at most 24 frames within 0.6 s, or 12 frames, of those of a sample that show the
+/// marker. They ascend and leave out the sample's own. Empty if the sample itself shows it in 24
+/// frames, or in none. `track`: the frames of the sample that show the marker.
 std::vector<std::int64_t> FramesNearSample(const std::vector<session::FrameTime>& sample,
                                            const std::vector<session::Observation>& track);
 

@@ -219,8 +219,8 @@ Result<void> RunLive(const CLI::App& command, const LiveArguments& arguments) {
   std::optional<InterruptDeadline> deadline(
       std::in_place, arguments.input.camera, [] {}, "no image was composed");
   PLEINAIR_ASSIGN_OR_RETURN(auto session,
-                            LiveSession::Create(std::move(source.frames), std::move(options)));
-  deadline.reset();
+                            LiveSession::Create(std::move(source.frames), std::move(options),
+                                                [&deadline] { deadline.reset(); }));
   LiveReport report(arguments.report_every_s.value_or(arguments.json ? kReportEvery_s : 0.0));
   auto last = arguments.headless
                   ? DrawAll(*session, source, arguments, &report)

@@ -70,10 +70,12 @@ struct DrawnFrame {
 /// waits for a slower stage, unless `lossless`.
 class LiveSession {
  public:
-  /// Loads the scene, starts the threads and prepares the first light. Errors: models, OpenGL, the
-  /// marker, a recording or detections file that cannot be written.
+  /// Loads the scene, starts the threads and prepares the first light. `loaded` is called between:
+  /// when the models are loaded, and no file is made yet. Errors: models, OpenGL, the marker, a
+  /// recording or detections file that cannot be written.
   static Result<std::unique_ptr<LiveSession>> Create(std::unique_ptr<devices::FrameSource> source,
-                                                     LiveOptions options);
+                                                     LiveOptions options,
+                                                     const std::function<void()>& loaded = {});
   ~LiveSession();
 
   /// Draws the newest tracked frame; nothing when there is none within `limit`. Errors: as the
@@ -127,7 +129,7 @@ class LiveSession {
   };
 
   LiveSession(std::unique_ptr<devices::FrameSource> source, LiveOptions options);
-  Result<void> Prepare();
+  Result<void> Prepare(const std::function<void()>& loaded);
   void Capture();
   void Track();
   Result<void> CheckSize(const devices::Frame& frame) const;

@@ -27,7 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uintmax_t kMaxPhotoFileBytes = std::uintmax_t{256} << 20;
-/// So many frames are in memory at once, and are searched on all processors.
+/// So many frames are in memory at once, and are searched in parallel.
 constexpr std::size_t kLooksAtOnce = 4;
 
 /// Frames of a file, before any lens is known.
@@ -136,7 +136,8 @@ Result<FilmLook> LookAt(const fs::path& file, const LookOptions& options) {
   tracker::TrackerOptions tracking;
   tracking.families = FamiliesToLookFor(options.family);
   tracking.marker_size_m = 1.0;
-  PLEINAIR_ASSIGN_OR_RETURN(auto trackers, tracker::ParallelTrackers::Create(camera, tracking));
+  PLEINAIR_ASSIGN_OR_RETURN(auto trackers,
+                            tracker::ParallelTrackers::Create(camera, tracking, kLooksAtOnce));
   look.frames = opened.frames->FrameCount().value_or(1);
   const std::vector<std::size_t> indices = session::EvenlySpread(
       static_cast<std::size_t>(look.frames), CountOfLooks(opened.size, options.is_marker_rare));

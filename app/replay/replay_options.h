@@ -36,7 +36,7 @@ struct ReplayOptions {
   compositor::ComposerOptions composer;
   session::LightOptions light;
   std::optional<ImageSize> size;  ///< Of the output; detection uses the recording's size.
-  std::optional<TimeLapseOptions> time_lapse;  ///< Also draw a day of the scene.
+  std::optional<TimeLapseOptions> time_lapse;  ///< Also draw the scene over time.
   std::string command;                         ///< For the report.
 };
 

@@ -62,8 +62,8 @@ uniform int u_pane;     // Number among blended surfaces, equal for both sides o
 const float kMaxBlended = 0.995;
 
 // Two of four samples. Two surfaces behind each other each hide a sample of their own, and what is
-// behind both keeps one. Three surfaces hide one each, and what is behind them has none; a fourth
-// has the samples of the first.
+// behind both keeps one. Three surfaces hide one each, and what is behind them has none. Surfaces
+// whose numbers are equal modulo three have the same samples, and the nearer one hides the other.
 int SamplesOfBlended() { return 8 | 1 << (u_pane % 3); }
 
 float AlphaAt(vec2 uv, vec2 step_x, vec2 step_y) {

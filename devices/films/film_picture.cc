@@ -10,6 +10,7 @@ extern "C" {
 }
 
 #include "base/parallel_for.h"
+#include "devices/images/rounded_image.h"
 
 namespace pleinair::devices {
 namespace {
@@ -62,17 +63,6 @@ void StretchToWhite(int white, DeepImage* signal) {
   });
 }
 
-RgbImage Rounded(const DeepImage& deep) {
-  constexpr int kPerCode = 257;  // 65,535 / 255.
-  RgbImage rgb(deep.width(), deep.height(), deep.channels());
-  ParallelForBlocks(deep.size(), 3 * kPixelsTogether, [&](std::size_t first, std::size_t end) {
-    for (std::size_t i = first; i < end; ++i) {
-      rgb.data()[i] = static_cast<std::uint8_t>((deep.data()[i] + kPerCode / 2) / kPerCode);
-    }
-  });
-  return rgb;
-}
-
 }  // namespace
 
 FilmPictures::FilmPictures(std::string name, FilmColors colors, DisplayTurn turn)
@@ -103,6 +93,7 @@ Result<FilmPicture> FilmPictures::Convert(const AVFrame& frame) {
   if (facts == nullptr || sws_isSupportedInput(format) == 0) return refused();
   const bool converted = colors_.IsConverted();
   const bool deep = converted || BitsOf(*facts) > 8;
+  if (BitsOf(*facts) > 16) return refused();
   SwsContext* scaler = sws_getCachedContext(
       scaler_.release(), frame.width, frame.height, format, frame.width, frame.height,
       deep ? AV_PIX_FMT_RGB48 : AV_PIX_FMT_RGB24,
@@ -130,7 +121,7 @@ Result<FilmPicture> FilmPictures::Convert(const AVFrame& frame) {
   StretchToWhite(WhiteOf(*facts, colors_.full_range), &signal);
   if (converted) ThroughLight(&signal);
   picture.deep = turn_.Turned(std::move(signal));
-  picture.rgb = Rounded(picture.deep);
+  picture.rgb = RoundedTo8Bits(picture.deep);
   return picture;
 }
 

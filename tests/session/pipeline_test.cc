@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -55,6 +57,34 @@ TEST(Pipeline, GivesPoseAndTheFrameItselfWhereThereIsNothingToDraw) {
     EXPECT_TRUE(SamePixels(composed->image, frame.rgb));
     EXPECT_FALSE(composed->light);
   }
+}
+
+TEST(Pipeline, DrawsAtTheDepthOfAFrameAtAnySize) {
+  auto recording = devices::OpenRecording(tests::SourceTree() / "recordings/courtyard_midday");
+  ASSERT_TRUE(recording);
+  PipelineOptions options;
+  options.image_size = ImageSize{160, 120};
+  options.light.overrides.max_patches = 2'000;
+  devices::Frame frame = FramesOf(Open("courtyard_midday")).front();
+  const auto composed = [&] {
+    auto pipeline = Pipeline::Create(recording->camera, *recording->scene, options);
+    EXPECT_TRUE(pipeline);
+    auto drawn = (*pipeline)->Process(frame);
+    EXPECT_TRUE(drawn && drawn->light);
+    return drawn->image;
+  };
+  const RgbImage plain = composed();
+  // Nearly half a step brighter, which 8 bits do not show.
+  frame.deep = DeepImage(frame.rgb.width(), frame.rgb.height(), 3);
+  for (std::size_t i = 0; i < frame.rgb.size(); ++i) {
+    frame.deep.data()[i] =
+        static_cast<std::uint16_t>(std::min(257 * frame.rgb.data()[i] + 120, 65'535));
+  }
+  const RgbImage deep = composed();
+  ASSERT_EQ(deep.size(), plain.size());
+  double sum = 0.0;
+  for (std::size_t i = 0; i < deep.size(); ++i) sum += deep.data()[i] - plain.data()[i];
+  EXPECT_NEAR(sum / static_cast<double>(deep.size()), 120.0 / 257.0, 0.15);
 }
 
 TEST(Pipeline, HasNoPoseWhereTheMarkerIsNotSeen) {

@@ -126,7 +126,7 @@ TEST(ParallelTrackers, GiveTheMarkersOfASingleTrackerInTheOrderOfTheImages) {
   }
   std::vector<ImageView<const std::uint8_t>> views;
   for (const GreyImage& image : images) views.push_back(image.view());
-  auto parallel = ParallelTrackers::Create(camera, {.marker_size_m = 0.1});
+  auto parallel = ParallelTrackers::Create(camera, {.marker_size_m = 0.1}, 3);
   ASSERT_TRUE(parallel);
   const auto together = parallel->Track(views);
   const auto found = parallel->Find(views);
@@ -147,7 +147,7 @@ TEST(ParallelTrackers, GiveTheMarkersOfASingleTrackerInTheOrderOfTheImages) {
 
 TEST(ParallelTrackers, TellTheErrorOfAnImageOfAnotherSize) {
   const CameraModel camera = Camera320();
-  auto parallel = ParallelTrackers::Create(camera, {.marker_size_m = 0.1});
+  auto parallel = ParallelTrackers::Create(camera, {.marker_size_m = 0.1}, 3);
   ASSERT_TRUE(parallel);
   const GreyImage good(320, 200), other(64, 64);
   const auto tracked = parallel->Track(std::vector{good.view(), other.view(), good.view()});

@@ -55,7 +55,8 @@ Result<MarkerViewCollector> MarkerViewCollector::Create(ImageSize size,
   if (options.consecutive_frames) {
     PLEINAIR_ASSIGN_OR_RETURN(collector.tracker_, Tracker::Create(lens, tracking));
   } else {
-    PLEINAIR_ASSIGN_OR_RETURN(collector.trackers_, ParallelTrackers::Create(lens, tracking));
+    PLEINAIR_ASSIGN_OR_RETURN(collector.trackers_,
+                              ParallelTrackers::Create(lens, tracking, options.images_at_once));
   }
   return collector;
 }

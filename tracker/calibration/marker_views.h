@@ -26,6 +26,8 @@ struct MarkerViewOptions {
   std::size_t max_views = 120;
   /// The images are consecutive frames: those in which the marker moves fast are left out.
   bool consecutive_frames = true;
+  /// Images that do not follow each other are given to Add() in groups of at most this number.
+  std::size_t images_at_once = 8;
 };
 
 /// An image and its name for messages.
@@ -43,7 +45,7 @@ class MarkerViewCollector {
 
   /// Takes the next images, which have the collector's size. Returns how many show a marker. Keeps
   /// a cut-out of each where the marker is seen as a whole, at a new place. Images that do not
-  /// follow each other are searched on all processors.
+  /// follow each other are searched in parallel.
   Result<int> Add(std::span<const NamedImage> images);
 
   /// The corners of the collected views, by an alignment of all cells through this lens

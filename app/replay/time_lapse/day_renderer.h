@@ -14,10 +14,11 @@
 namespace pleinair::app {
 
 /// Draws a whole scene, phantoms in their own colors and virtual objects, under the sky of any
-/// time. Each image needs one matrix-vector product with the daylight coefficients.
+/// time. With daylight coefficients an image needs one matrix-vector product, without them rays are
+/// traced for each.
 class DayRenderer {
  public:
-  /// `request`: the scene's estimated light, with coefficients; its time begins the scene.
+  /// `request`: the scene's estimated light; its time begins the scene.
   /// `placed`: the models that its solver was built from. `phantoms_cast`: false if no phantom
   /// shades anything, such as level ground alone; the shadow maps then resolve the objects alone.
   /// Errors: as Composer::Create().

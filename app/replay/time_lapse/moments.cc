@@ -17,7 +17,7 @@ constexpr std::size_t kMaxPictures = 1440;
 constexpr double kTwilight_s = 1800.0;
 constexpr double kMinPeriod_s = 1.0;
 
-constexpr int kMaxDays = 366;
+constexpr int kMaxDays = 366;  // Longest step: a year.
 
 constexpr const char* kHoursRemedy =
     "write 05:00..21:00, 05:00..21:00+02:00, day, or 2025-04-15..2025-10-15@12:00";
@@ -91,7 +91,9 @@ Result<std::optional<TimeLapseOptions::Dates>> ParseDates(std::string_view text)
   std::string_view rest = text.substr(kSpan);
   if (rest.empty()) return dates;
   dates.at_min = rest[0] == '@' ? ParseClock(rest.substr(1, kClock)) : std::nullopt;
-  if (!dates.at_min) return fail("does not end with a time of day");
+  if (!dates.at_min || *dates.at_min == kMinutesOfDay) {
+    return fail("does not end with a time of day");
+  }
   rest = rest.substr(1 + kClock);
   if (rest.empty()) return dates;
   PLEINAIR_ASSIGN_OR_RETURN(dates.clock, ParseUtcOffset(rest, "--time-lapse"));

@@ -107,6 +107,7 @@ class TracedBodies : public ChangingBodies {
       // The rays of the first round end at surfaces with their light of before.
       if (state_.rounds == kFirstRounds) Forget();
     }
+    contacts_->FadeOut();
     Refresh(changed == Changed::kNothing ? kProbesPerFrameAtRest : kProbesPerFrame,
             kVerticesPerFrame);
     return changed;

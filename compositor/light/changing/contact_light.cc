@@ -198,6 +198,14 @@ void ContactLight::TraceShaded(const Surroundings& surroundings, Vec3 origin, Ve
   }
 }
 
+void ContactLight::FadeOut() {
+  for (const auto& [m, v] : near_) {
+    for (float& fading : changes_[m][v].fading) {
+      fading *= fading > kMinFading_lux ? kFadeOut : 0.0F;
+    }
+  }
+}
+
 void ContactLight::Light(std::span<LitMesh> drawn) {
   for (const auto& [m, v] : left_) {
     const LitMesh& mesh = still_[m];
@@ -208,11 +216,10 @@ void ContactLight::Light(std::span<LitMesh> drawn) {
   left_.clear();
   for (const auto& [m, v] : near_) {
     const LitMesh& mesh = still_[m];
-    Change& change = changes_[m][v];
+    const Change& change = changes_[m][v];
     const float share = std::min(1.0F, change.shaded_rays / kShadedRays);
     for (std::size_t c = 0; c < 3; ++c) {
       const float shaded = share * change.shaded[c] + change.fading[c];
-      change.fading[c] *= change.fading[c] > kMinFading_lux ? kFadeOut : 0.0F;
       const float light = std::max(0.0F, mesh.ambient_with[v][c] + change.light[c] - shaded);
       drawn[m].ambient_with[v][c] = light;
       if (mesh.sunlight.reflected_with.empty()) continue;

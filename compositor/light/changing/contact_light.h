@@ -23,7 +23,7 @@ namespace pleinair::compositor {
 ///
 /// Beside bodies at rest, other rays find the sunlight that still surfaces no longer reflect to the
 /// vertex, because a body shades them. It fades in: few rays of so strong a light would flicker.
-/// Where a body moves again, it fades out within half a second at 25 frames a second.
+/// Where a body moves again, it fades out: to 7 % in half a second at 25 frames a second.
 class ContactLight {
  public:
   /// `still`: the surfaces in their light without the bodies. It must outlive this object.
@@ -39,8 +39,9 @@ class ContactLight {
   std::size_t size() const { return near_.size(); }
   /// Forgets all rays: the next ones count alone.
   void Forget();
-  /// Sets the light of `drawn`, copies of the still surfaces, to that with the bodies. Once a
-  /// frame.
+  /// Lets the missing sunlight that fades out go on by a frame.
+  void FadeOut();
+  /// Sets the light of `drawn`, copies of the still surfaces, to that with the bodies.
   void Light(std::span<LitMesh> drawn);
 
   static constexpr double kReach_m = 3.0;
