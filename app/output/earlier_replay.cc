@@ -84,7 +84,10 @@ EarlierReplay EarlierReplay::In(const fs::path& folder) {
   }
   if (earlier.outputs_.contains(kFramesPattern) && has("frames") &&
       report["frames"].is_number_integer()) {
-    earlier.frames_ = report["frames"].get<std::int64_t>();
+    earlier.frames_.count = report["frames"].get<std::int64_t>();
+    if (has("first_frame") && report["first_frame"].is_number_integer()) {
+      earlier.frames_.first = report["first_frame"].get<std::int64_t>();
+    }
   }
   return earlier;
 }
@@ -93,7 +96,7 @@ bool EarlierReplay::Wrote(const fs::path& relative) const {
   if (outputs_.contains(relative.generic_string())) return true;
   if (relative.parent_path() != "frames") return false;
   const std::optional<std::int64_t> number = FrameNumber(relative.filename());
-  return number && *number < frames_;
+  return number && *number >= frames_.first && *number - frames_.first < frames_.count;
 }
 
 std::vector<fs::path> EarlierReplay::FilesNamedLikeOutputs() const {

@@ -32,7 +32,9 @@ class EarlierReplay {
 
   std::filesystem::path folder_;
   std::set<std::string> outputs_;
-  std::int64_t frames_ = 0;  // Images 0000.png and on; 0 if there are none.
+  struct Frames {
+    std::int64_t first = 0, count = 0;
+  } frames_;  // Numbers of the images in frames/.
 };
 
 /// The error for a file that must not be replaced.

@@ -259,6 +259,19 @@ TEST(Replay, ReplacesTheOutputsOfAnEarlierReplayAndNothingElse) {
   EXPECT_THAT(Listing(folder / "out"),
               ElementsAre("detections.jsonl", "frames", "frames/mine.png", "notes.txt", "poses",
                           "poses/sg_17.tum", "report.html", "report.json"));
+  // A later frame alone, as the guide says after each change.
+  for (int i = 0; i < 2; ++i) {
+    const RunResult one =
+        RunPleinair({"replay", folder / "site", "-o", folder / "one", "--frame", "1"});
+    EXPECT_EQ(one.exit_code, 0) << one.err;
+    EXPECT_THAT(Listing(folder / "one"), Contains("frames/0001.png"));
+  }
+  EXPECT_EQ(
+      RunPleinair({"replay", folder / "site", "-o", folder / "one", "--frame", "0"}).exit_code, 0);
+  EXPECT_THAT(Listing(folder / "one"), Not(Contains("frames/0001.png")));
+  WriteFile(folder / "one/frames/0005.png", "mine");
+  EXPECT_EQ(
+      RunPleinair({"replay", folder / "site", "-o", folder / "one", "--frame", "0"}).exit_code, 2);
 }
 
 TEST(Replay, LeavesFramesWithoutAMarkerAsTheyAreAndSaysSo) {

@@ -288,6 +288,7 @@ std::string ReportJson(const ReplayReport& report) {
   json["command"] = report.call.command;
   json["recording"] = report.call.recording;
   json["scene"] = report.call.scene_file;
+  json["first_frame"] = report.film.first_frame;
   json["frames"] = report.film.frames;
   json["frames_with_pose"] = report.path.size();
   json["size_px"] = {report.film.width, report.film.height};
