@@ -9,7 +9,8 @@ namespace pleinair {
 using DeepImage = Image<std::uint16_t>;  ///< As RgbImage, in 16 bits: 65,535 is 255.
 
 /// View of a camera's image for measuring light and for drawing. Three channels, encoded by the
-/// camera's response: 8 bits of each, and, of a source that has more, the same image in 16 bits.
+/// camera's response. They have 8 bits. Sources that have more or are converted give the same image
+/// in 16 bits, too.
 class CameraImageView {
  public:
   CameraImageView() = default;
@@ -23,7 +24,7 @@ class CameraImageView {
   int width() const { return rgb_.width(); }
   int height() const { return rgb_.height(); }
   ImageView<const std::uint8_t> rgb() const { return rgb_; }
-  /// Empty if the source has 8 bits.
+  /// Empty if the source has 8 bits and is not converted.
   ImageView<const std::uint16_t> deep() const { return deep_; }
 
  private:

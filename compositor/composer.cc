@@ -367,15 +367,6 @@ Result<void> GlComposer::SkipImage(const Transform<Camera, Marker>& camera_from_
 Result<RgbImage> GlComposer::Compose(CameraImageView image,
                                      const Transform<Camera, Marker>& camera_from_marker,
                                      LinearRgb exposure_scale) {
-  CHECK_EQ(image.width(), camera_.width);
-  CHECK_EQ(image.height(), camera_.height);
-  CHECK_EQ(image.rgb().channels(), 3);
-  CHECK_EQ(image.rgb().stride(), static_cast<std::ptrdiff_t>(image.width()) * 3);
-  if (!image.deep().empty()) {
-    CHECK_EQ(image.deep().width(), camera_.width);
-    CHECK_EQ(image.deep().height(), camera_.height);
-    CHECK_EQ(image.deep().stride(), static_cast<std::ptrdiff_t>(camera_.width) * 3);
-  }
   PLEINAIR_RETURN_IF_ERROR(context_.MakeCurrent());
   PLEINAIR_RETURN_IF_ERROR(canvas_.picture.SetBackground(image));
   PLEINAIR_ASSIGN_OR_RETURN(const shadows::View view, UpdateScene(camera_from_marker));

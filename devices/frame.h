@@ -52,7 +52,7 @@ struct Frame {
   int lost_before = 0;  ///< Frames known to be lost between the previous frame and this one.
   FrameLoss loss;       ///< The same losses by cause, if the source reports them.
   RgbImage rgb;         ///< Three channels, sRGB-encoded.
-  DeepImage deep;       ///< The same in 16 bits; empty if the source has no more than 8.
+  DeepImage deep;       ///< The same in 16 bits; empty: the source has 8, unconverted.
   GreyImage grey;       ///< One channel, sRGB-encoded; input of the tracker.
   /// The bytes that the camera sent, for recorders; null for files.
   std::shared_ptr<const RawImage> raw;

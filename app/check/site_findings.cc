@@ -211,7 +211,9 @@ SiteFinding HeadingFinding(const SiteFacts& facts) {
   }
   if (facts.light->heading_source != Source::kMeasured) {
     return {"heading", Verdict::kUnknown, "no shadow of the described surfaces shows it",
-            "describe what casts a visible shadow: [[box]], [[wall]]"};
+            "compare the object's shadow with a real one; edges of shadows of [[box]] and [[wall]] "
+            "in view "
+            "show the heading"};
   }
   const double offset_deg = ToDegrees(facts.light->heading_offset);
   SiteFinding finding{

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <glm/glm.hpp>
 #include <string>
 #include <vector>
 
+#include "base/check.h"
 #include "compositor/light/sampling.h"
 #include "compositor/picture/grain.h"
 
@@ -178,6 +180,14 @@ void CameraPicture::SetGrain(const gl::GlProgram& program) const {
 }
 
 Result<void> CameraPicture::SetBackground(CameraImageView image) {
+  const auto check = [&](const auto& view) {
+    CHECK_EQ(view.width(), camera_.width);
+    CHECK_EQ(view.height(), camera_.height);
+    CHECK_EQ(view.channels(), 3);
+    CHECK_EQ(view.stride(), static_cast<std::ptrdiff_t>(camera_.width) * 3);
+  };
+  check(image.rgb());
+  if (!image.deep().empty()) check(image.deep());
   const bool deep = !image.deep().empty();
   const GLenum format = deep ? GL_RGBA16 : GL_RGBA8;
   if (background_.internal_format() != format) {

@@ -15,19 +15,9 @@
 namespace pleinair::compositor {
 namespace {
 
-/// The same light in air that transmits half of the light over three metres.
-class HazySouthernSun : public SouthernSun {
- public:
-  AirBetween AirTo(Direction<World>, Metres distance) const override {
-    const double left = std::exp2(-distance.value() / 3.0);
-    return {{left, left, left}, LinearRgb{1.0, 1.0, 1.0} * (kAirlight * (1.0 - left))};
-  }
-  static constexpr double kAirlight = 6000.0;
-};
-
 TEST(Composer, SeesTheObjectThroughAsMuchFogAsItIsToldTo) {
   const SouthernSun clear;
-  const HazySouthernSun needs_airlight;
+  const HazySouthernSun needs_airlight(3.0);
   const std::vector<PlacedModel> scene{kGround, kCube};
   const auto solver = LightSolver::Create(scene, {.rays_per_vertex = 64});
   ASSERT_TRUE(solver.has_value());
@@ -57,7 +47,7 @@ TEST(Composer, DrawsFogOfDifferentPartitionsWithoutASeam) {
   // A virtual lawn from below the camera to the horizon, with fog by the formula.
   const std::vector<PlacedModel> scene{Place(MakeBox({-400, -400, 0}, {400, 400, 0}, 0.5F), false)};
   const Transform<Camera, Marker> eye_level{{{1, 0, 0, 0, 0, -1, 0, 1, 0}}, {0, 2, 0}};
-  const HazySouthernSun day;
+  const HazySouthernSun day(3.0);
   const auto solver = LightSolver::Create(scene, {.rays_per_vertex = 16, .near_edge_m = 100.0});
   ASSERT_TRUE(solver.has_value());
   ComposerOptions options;

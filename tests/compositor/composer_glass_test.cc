@@ -66,16 +66,6 @@ TEST(Composer, DrawsWhatCastsNoShadow) {
   EXPECT_NEAR(LetThrough({Place(pane, false)}), 0.7, 0.02);
 }
 
-/// The southern sun in air that transmits 2^(-d / 8 m) over a distance of d.
-class HazySunOverGlass : public SouthernSun {
- public:
-  AirBetween AirTo(Direction<World>, Metres distance) const override {
-    const double left = std::exp2(-distance.value() / 8.0);
-    return {{left, left, left}, LinearRgb{1.0, 1.0, 1.0} * (kAirlight * (1.0 - left))};
-  }
-  static constexpr double kAirlight = 6000.0;
-};
-
 TEST(Composer, ShowsAShadowThroughGlassAsDarkAsBesideIt) {
   // The cube's shadow lies north of it, below three panes. In fog, a black pane has the airlight
   // before it.
@@ -105,8 +95,8 @@ TEST(Composer, ShowsAShadowThroughGlassAsDarkAsBesideIt) {
     return images;
   };
   const SouthernSun clear;
-  const HazySunOverGlass hazy;
-  const double air = kExposureScale * HazySunOverGlass::kAirlight * (1.0 - std::exp2(-2.6 / 8.0));
+  const HazySouthernSun hazy(8.0);
+  const double air = kExposureScale * HazySouthernSun::kAirlight * (1.0 - std::exp2(-2.6 / 8.0));
   const auto beside = compose({&clear, &hazy}, false), through = compose({&clear, &hazy}, true);
   for (const bool in_haze : {false, true}) {
     const std::size_t day = in_haze ? 1 : 0;

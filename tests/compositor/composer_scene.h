@@ -39,6 +39,20 @@ class SouthernSun : public sky::SkyModel {
   double sun_lux_;
 };
 
+/// The same light in air that transmits half of the light over `halving_m`.
+class HazySouthernSun : public SouthernSun {
+ public:
+  explicit HazySouthernSun(double halving_m) : halving_m_(halving_m) {}
+  AirBetween AirTo(Direction<World>, Metres distance) const override {
+    const double left = std::exp2(-distance.value() / halving_m_);
+    return {{left, left, left}, LinearRgb{1.0, 1.0, 1.0} * (kAirlight * (1.0 - left))};
+  }
+  static constexpr double kAirlight = 6000.0;
+
+ private:
+  double halving_m_;
+};
+
 /// An axis-aligned box; with zero height a rectangle that faces up.
 inline Model MakeBox(Vec3 low, Vec3 high, float albedo) {
   Model model;

@@ -26,7 +26,7 @@ constexpr double kPlainVisible = 0.985;
 /// Minimum inner correlation, relative to that which noise leaves; and the contrast of the inside,
 /// in shares of white. Occluders of two sides can draw the fit to both of their edges, where all of
 /// the border seems visible. The inside then does not fit.
-constexpr double kInsideFits = 0.985, kInnerContrast = 0.45;
+constexpr double kInsideFits = 0.998, kInnerContrast = 0.45;
 constexpr double kMinSide_px = 6.0;
 constexpr double kVisibleCorrelation = 0.7;
 constexpr double kMinVisibleBorder = 0.06;
@@ -75,11 +75,12 @@ double ModulesApart(const Mat3& modules_from_undistorted,
 
 /// Whether a reading explains more of the marker than another of the same number. An occluder of
 /// the border has edges that resemble the outer ones, but none that resemble the inside. Only if
-/// the inside fits alike, the visible share decides.
+/// the inside fits alike, the visible share decides: where the correlations differ by less than
+/// 0.01 and by less than half of what the other leaves unexplained.
 bool Explains(const SgReading& reading, const SgReading& other) {
-  constexpr double kAlike = 0.01;
+  const double alike = std::min(0.01, 0.5 * (1.0 - other.inner_correlation));
   const double better = reading.inner_correlation - other.inner_correlation;
-  return better > kAlike || (better > -kAlike && reading.visible_fraction > other.visible_fraction);
+  return better > alike || (better > -alike && reading.visible_fraction > other.visible_fraction);
 }
 
 }  // namespace

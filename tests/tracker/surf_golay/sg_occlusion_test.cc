@@ -170,9 +170,9 @@ TEST(SgOcclusion, IsNotDrawnToTheEdgesOfPaperThatHidesTwoSidesNarrowly) {
   // The edges of the paper pass for the square's own, and all of the border seems visible.
   const CameraModel camera = SgCamera();
   const auto tracker = MakeSgTracker(camera);
-  for (std::uint32_t seed = 1; seed <= 12; ++seed) {
-    const double hidden = 0.8 + 0.1 * (seed % 6);  // Modules.
-    const bool adjacent = seed > 6;
+  for (std::uint32_t seed = 1; seed <= 22; ++seed) {
+    const double hidden = 0.3 + 0.1 * (seed % 11);  // Modules.
+    const bool adjacent = seed > 11;
     SCOPED_TRACE(testing::Message()
                  << hidden << " modules, " << (adjacent ? "adjacent" : "opposite"));
     RenderedMarker marker = SgMarkerAt(camera, 2032, {161, 118}, 120, 10, 30.0 * seed, 15);
@@ -186,7 +186,8 @@ TEST(SgOcclusion, IsNotDrawnToTheEdgesOfPaperThatHidesTwoSidesNarrowly) {
               RenderMarkers(camera, {marker}, {.blur_px = 0.5, .noise_codes = 1.0, .seed = seed}));
     ASSERT_EQ(found.size(), 1U);
     EXPECT_EQ(found[0].detection.id, 2032);
-    EXPECT_LT(CornerRms(found[0], TrueCorners(camera, marker)), 0.4);
+    // Below half a module the inside fits nearly as well as without the paper.
+    EXPECT_LT(CornerRms(found[0], TrueCorners(camera, marker)), hidden < 0.45 ? 0.7 : 0.4);
   }
 }
 
