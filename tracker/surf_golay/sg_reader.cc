@@ -75,8 +75,8 @@ double ModulesApart(const Mat3& modules_from_undistorted,
 
 /// Whether a reading explains more of the marker than another of the same number. An occluder of
 /// the border has edges that resemble the outer ones, but none that resemble the inside. Only if
-/// the inside fits alike, the visible share decides: where the correlations differ by less than
-/// 0.01 and by less than half of what the other leaves unexplained.
+/// the inside fits alike, the visible share decides. Alike are correlations that differ by less
+/// than 0.01, and by less than half of what the other leaves unexplained.
 bool Explains(const SgReading& reading, const SgReading& other) {
   const double alike = std::min(0.01, 0.5 * (1.0 - other.inner_correlation));
   const double better = reading.inner_correlation - other.inner_correlation;

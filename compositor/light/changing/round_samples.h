@@ -7,13 +7,13 @@
 
 namespace pleinair::compositor {
 
-/// Points for the rays of one round of many, so that all rounds together are even, too. Point i is
-/// that of Hammersley's set of `count` points, shifted by
+/// Points for the rays of one round of many, so that all rounds together are even, too. In round r,
+/// point i is that of Hammersley's set of `count` points, shifted by
 ///
 ///     (a_r / count, b_r),   a_r = frac(r / g),   b_r = frac(r / g²),   g³ = g + 1
 ///
-/// in round r: Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences", R2. Each of
-/// the `count` columns thus receives this sequence. `seed` shifts all points by the same amount
+/// (Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences", R2). Each of the
+/// `count` columns thus receives this sequence. `seed` shifts all points by the same amount
 /// (HammersleyShift()).
 class RoundSamples {
  public:
