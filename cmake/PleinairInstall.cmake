@@ -2,7 +2,7 @@
 # find_package(pleinair) and pkg-config need. Included last, when every target exists.
 include(CMakePackageConfigHelpers)
 
-set(PLEINAIR_EXPORTED pleinair_base pleinair_files pleinair_scene pleinair_sky pleinair_gl pleinair_shadows pleinair_leaf pleinair_compositor
+set(PLEINAIR_EXPORTED pleinair_base pleinair_files pleinair_scene pleinair_sky pleinair_clouds pleinair_gl pleinair_shadows pleinair_leaf pleinair_compositor
     pleinair_devices pleinair_tracker pleinair_calibration pleinair_session pleinair_export pleinair_april_tag)
 install(TARGETS ${PLEINAIR_EXPORTED} EXPORT pleinair-targets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
@@ -57,7 +57,7 @@ install(FILES ${PROJECT_BINARY_DIR}/pleinair-config.cmake
 install(EXPORT pleinair-targets NAMESPACE pleinair:: DESTINATION ${config_folder})
 
 # For pkg-config, all libraries under one name, each before those that it uses.
-set(pleinair_libs export session compositor leaf shadows gl tracker devices calibration scene files sky)
+set(pleinair_libs export session compositor leaf shadows gl tracker devices calibration scene files clouds sky)
 list(TRANSFORM pleinair_libs PREPEND "-lpleinair_")
 list(JOIN pleinair_libs " " PLEINAIR_PC_LIBS)
 set(PLEINAIR_PC_REQUIRES "erfa epoxy egl yaml-cpp zlib libpng libjpeg libhwy fmt OpenEXR")
