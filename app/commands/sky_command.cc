@@ -11,6 +11,8 @@
 
 #include "app/commands/command.h"
 #include "app/options/option_use.h"
+#include "app/sky/layered_sky.h"
+#include "app/sky/shadow_points.h"
 #include "app/sky/sky_directions.h"
 #include "app/sky/sky_files.h"
 #include "app/sky/sky_options.h"
@@ -34,6 +36,11 @@ constexpr const char* kSkyExamples =
     "      for each row of azimuth_deg,elevation_deg six columns: luminance_cd_m2,x,y,r,g,b\n"
     "  pleinair sky --at 50.0875,14.4213 --day 2025-06-21 --utc-offset +02:00 -o day.mp4\n"
     "      a time-lapse, a frame every five minutes; without -o a table of illuminances\n"
+    "  pleinair sky --sun 180,40 --cloud-layer "
+    "kind=cumulus,cover=0.4,wind_m_s=8,wind_from_deg=250\\\n"
+    "               --seconds 60 -o clouds.png\n"
+    "      a layer of clouds, a minute after it formed; with --shadow-at points.csv -o shadow.csv\n"
+    "      the sun's light at east_m,north_m[,height_m][,seconds]\n"
     "Azimuth is clockwise from true north; the elevation of --sun is as seen, with refraction.\n"
     "Light: linear Rec.709, cd/m2 and lux.\n";
 
@@ -52,40 +59,49 @@ void PrintSky(const nlohmann::json& object) {
   std::cout << object.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
 }
 
-Result<void> RunVideo(const SkyOptions& options, const sky::SkySource& source,
-                      sky::SkyModelName name, const std::vector<SkyMoment>& moments) {
+Result<void> RunVideo(const SkyOptions& options, const LayeredSky& skies, sky::SkyModelName name,
+                      const std::vector<SkyMoment>& moments) {
   PLEINAIR_ASSIGN_OR_RETURN(const SkyFileOptions file, ChosenFile(options));
-  PLEINAIR_RETURN_IF_ERROR(WriteSkyVideo(source, moments, file));
+  PLEINAIR_RETURN_IF_ERROR(
+      WriteSkyVideo([&skies](const SkyMoment& moment) { return skies.At(moment); }, moments, file));
   if (options.json) PrintSky(DescribeSky(file, name, moments.size()));
   return {};
 }
 
-Result<void> RunSeries(const SkyOptions& options, const sky::SkySource& source,
+Result<void> RunSeries(const SkyOptions& options, const LayeredSky& skies,
                        const std::vector<SkyMoment>& moments) {
   PLEINAIR_ASSIGN_OR_RETURN(files::ResultFile output, files::ResultFile::Open(options.output));
   if (!options.json) output.stream() << kSkyLightColumns << '\n';
   ProgressBar bar("sky", static_cast<std::int64_t>(moments.size()), "moments");
   for (const SkyMoment& moment : moments) {
-    const auto sky = source.ForSun(moment.ToSun(), moment.sun_distance_au);
+    const auto sky = skies.At(moment);
     const SkyLight light = MeasureSky(*sky, moment);
-    output.stream() << (options.json ? "{" + SkyLightJson(light) + "}\n" : SkyLightCsv(light));
+    output.stream() << (options.json ? "{" + SkyLightJson(light) + skies.Json(*sky, moment) + "}\n"
+                                     : SkyLightCsv(light));
     bar.Advance();
   }
   return output.Finish();
 }
 
-Result<void> RunMoment(const SkyOptions& options, const sky::SkySource& source,
-                       sky::SkyModelName name, const SkyMoment& moment) {
+Result<void> RunMoment(const SkyOptions& options, const LayeredSky& skies, sky::SkyModelName name,
+                       const SkyMoment& moment) {
   std::optional<SkyFileOptions> file;
-  if (options.csv.empty()) {
+  const bool points = !options.clouds.shadow_at.empty();
+  if (options.csv.empty() && !points) {
     if (!options.output.empty()) {
       PLEINAIR_ASSIGN_OR_RETURN(file, ChosenFile(options));
     }
   } else if (SkyFileKindOf(options.output)) {
-    return InputError(options.output, "is the name of a picture, but --csv gives a table",
-                      "name a table (.csv), or leave --csv out");
+    return InputError(options.output,
+                      points ? "is the name of a picture, but --shadow-at gives a table"
+                             : "is the name of a picture, but --csv gives a table",
+                      points ? "name a table (.csv), or leave --shadow-at out"
+                             : "name a table (.csv), or leave --csv out");
   }
-  const auto sky = source.ForSun(moment.ToSun(), moment.sun_distance_au);
+  if (points) {
+    return WriteCloudShadow(skies, moment, options.clouds.shadow_at, options.output, options.json);
+  }
+  const auto sky = skies.At(moment);
   for (const std::string& note : sky->Notes()) std::cerr << "pleinair: " << note << '\n';
   if (!options.csv.empty()) {
     return WriteSkyDirections(*sky, options.model.conditions.ground_albedo, options.csv,
@@ -98,6 +114,7 @@ Result<void> RunMoment(const SkyOptions& options, const sky::SkySource& source,
     return {};
   }
   std::string json = fmt::format(R"({{"model":"{}",{})", ToString(name), SkyLightJson(light));
+  json += skies.Json(*sky, moment);
   if (!sky->Notes().empty()) json += ",\"notes\":" + nlohmann::json(sky->Notes()).dump();
   if (file) {
     nlohmann::json picture = DescribeSky(*file, name, 1);
@@ -121,15 +138,19 @@ Result<void> RunSky(const CLI::App& command, const SkyOptions& options) {
                             sky::ParseSkyModelName(options.model.name));
   PLEINAIR_ASSIGN_OR_RETURN(const std::vector<SkyMoment> moments, ChosenMoments(options.span));
   PLEINAIR_RETURN_IF_ERROR(CheckUseOfSkyOptions(command, options, name));
+  PLEINAIR_ASSIGN_OR_RETURN(const std::vector<clouds::CloudLayer> layers,
+                            ChosenClouds(options.clouds));
   PLEINAIR_ASSIGN_OR_RETURN(const auto source,
                             sky::SkySource::Create(name, ChosenConditions(options.model)));
-  if (!options.Many()) return RunMoment(options, *source, name, moments.front());
-  if (!options.IsPicture()) return RunSeries(options, *source, moments);
+  const LayeredSky skies(source, layers, options.model.conditions.ground_albedo,
+                         options.clouds.seconds, moments.front().time);
+  if (!options.Many()) return RunMoment(options, skies, name, moments.front());
+  if (!options.IsPicture()) return RunSeries(options, skies, moments);
   if (moments.size() < 2) {
     return InputError(options.output, "is a video of one moment",
                       "give a smaller --step or a later --until");
   }
-  return RunVideo(options, *source, name, moments);
+  return RunVideo(options, skies, name, moments);
 }
 
 }  // namespace

@@ -79,7 +79,7 @@ Result<void> WriteSkyPicture(const sky::SkyModel& sky, const SkyLight& light,
              : exports::WriteRadianceHdr(options.file, picture.view());
 }
 
-Result<void> WriteSkyVideo(const sky::SkySource& source, const std::vector<SkyMoment>& moments,
+Result<void> WriteSkyVideo(const SkyAt& sky_at, const std::vector<SkyMoment>& moments,
                            const SkyFileOptions& options) {
   const InterruptGuard guard;
   const fs::path temporary = TemporarySibling(options.file);
@@ -100,7 +100,7 @@ Result<void> WriteSkyVideo(const sky::SkySource& source, const std::vector<SkyMo
       if (InterruptGuard::Interrupted()) {
         return give_up(Error{ErrorKind::kSystem, {}, "interrupted", "nothing was written"});
       }
-      const auto sky = source.ForSun(moments[i].ToSun(), moments[i].sun_distance_au);
+      const auto sky = sky_at(moments[i]);
       const SkyLight light = MeasureSky(*sky, moments[i]);
       const RgbImage frame = ToneMap(DrawSky(*sky, options.picture), ExposureFor(options, light));
       const auto stamp_ns = static_cast<std::int64_t>(

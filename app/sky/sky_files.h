@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,9 +35,12 @@ SkyExposure ExposureFor(const SkyFileOptions& options, const SkyLight& light);
 Result<void> WriteSkyPicture(const sky::SkyModel& sky, const SkyLight& light,
                              const SkyFileOptions& options);
 
+/// The sky of a moment.
+using SkyAt = std::function<std::unique_ptr<sky::SkyModel>(const SkyMoment&)>;
+
 /// Writes a time-lapse with one frame per time. An interruption leaves no file. Errors: as
 /// WriteError and VideoWriter.
-Result<void> WriteSkyVideo(const sky::SkySource& source, const std::vector<SkyMoment>& moments,
+Result<void> WriteSkyVideo(const SkyAt& sky_at, const std::vector<SkyMoment>& moments,
                            const SkyFileOptions& options);
 
 }  // namespace pleinair::app

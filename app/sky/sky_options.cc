@@ -1,5 +1,7 @@
 #include "app/sky/sky_options.h"
 
+#include <utility>
+
 #include <CLI/CLI.hpp>
 
 #include "app/options/local_time.h"
@@ -34,7 +36,8 @@ std::optional<sky::Aerosol> ChosenAerosol(const SkyOptions::Aerosol& given,
 }  // namespace
 
 bool SkyOptions::IsPicture() const {
-  return csv.empty() && !output.empty() && !(Many() && output.ends_with(".csv"));
+  return csv.empty() && clouds.shadow_at.empty() && !output.empty() &&
+         !(Many() && output.ends_with(".csv"));
 }
 
 sky::SkyConditions ChosenConditions(const SkyOptions::Model& given) {
@@ -47,6 +50,25 @@ sky::SkyConditions ChosenConditions(const SkyOptions::Model& given) {
     conditions.sky_horizontal_illuminance = Lux(*given.sky_illuminance_lx);
   }
   return conditions;
+}
+
+Result<std::vector<clouds::CloudLayer>> ChosenClouds(const SkyOptions::Clouds& given) {
+  constexpr const char* kOption = "--cloud-layer";
+  if (given.layers.size() > clouds::kMaxCloudLayers) {
+    return InputError(kOption, "is given " + std::to_string(given.layers.size()) + " times",
+                      "give at most four layers");
+  }
+  std::vector<clouds::CloudLayer> layers;
+  layers.reserve(given.layers.size());
+  for (const std::string& text : given.layers) {
+    Result<clouds::CloudLayer> layer = clouds::ParseCloudLayer(text);
+    if (!layer) {
+      layer.error().where = kOption;
+      return tl::make_unexpected(std::move(layer).error());
+    }
+    layers.push_back(*layer);
+  }
+  return layers;
 }
 
 Result<std::vector<SkyMoment>> ChosenMoments(const SkyOptions::Span& span) {
@@ -131,7 +153,9 @@ Result<void> CheckUseOfSkyOptions(const CLI::App& command, const SkyOptions& opt
   const bool place = options.span.sun.empty();
   const bool cie = name.kind == sky::SkyModelKind::kCie;
   // The ground affects only the sky of the atmosphere model, but every map and table shows it.
-  const bool ground = name.kind == sky::SkyModelKind::kAtmosphere || map || !options.csv.empty();
+  const bool ground = name.kind == sky::SkyModelKind::kAtmosphere || map || !options.csv.empty() ||
+                      !options.clouds.layers.empty();
+  const bool layers = !options.clouds.layers.empty();
   const std::string picture = "a picture or video, with -o";
   return RefuseUnusedOptions(
       command,
@@ -143,6 +167,9 @@ Result<void> CheckUseOfSkyOptions(const CLI::App& command, const SkyOptions& opt
        {"--turbidity", !cie, "the models atmosphere and perez"},
        {"--cloud-cover", !cie,
         "the models atmosphere and perez; cie:N says its clouds by its type"},
+       {"--cloud-layer", !cie, "the models atmosphere and perez"},
+       {"--seconds", layers, "layers of clouds, with --cloud-layer"},
+       {"--shadow-at", layers, "layers of clouds, with --cloud-layer"},
        {"--albedo", ground, "the model atmosphere, and to maps and tables, which show the land"},
        {"--projection", file.has_value(), picture},
        {"--size", file.has_value(), picture},
@@ -197,11 +224,31 @@ void AddSkyOptions(CLI::App& command, SkyOptions& options) {
                   "Diffuse reflectance of the land, 0 to 1")
       ->type_name("A")
       ->capture_default_str();
+  CLI::Option* cover =
+      command
+          .add_option("--cloud-cover,--clouds", options.model.conditions.cloud_cover,
+                      "0 clear to 1 overcast; not with cie:N")
+          ->type_name("C")
+          ->capture_default_str();
   command
-      .add_option("--cloud-cover,--clouds", options.model.conditions.cloud_cover,
-                  "0 clear to 1 overcast; not with cie:N")
-      ->type_name("C")
+      .add_option("--cloud-layer", options.clouds.layers,
+                  "A layer as kind=cumulus,cover=0.4,...; up to four times")
+      ->type_name("KEY=VALUE,...")
+      ->allow_extra_args(false)
+      ->excludes(cover);
+  command
+      .add_option("--seconds", options.clouds.seconds,
+                  "Seconds after the stated time by which the wind has moved the layers")
+      ->type_name("S")
+      ->check(NumberRange(-1e7, 1e7))
       ->capture_default_str();
+  CLI::Option* shadow_at =
+      command
+          .add_option("--shadow-at", options.clouds.shadow_at,
+                      "Table of points for the sun's light there; - for standard input")
+          ->type_name("FILE")
+          ->excludes(until)
+          ->excludes(day);
   command
       .add_option("--zenith-luminance", options.model.zenith_luminance_cd_m2,
                   "cd/m2, the scale of a cie:N sky")
@@ -254,6 +301,7 @@ void AddSkyOptions(CLI::App& command, SkyOptions& options) {
       ->capture_default_str();
   command.add_option("--csv", options.csv, "Table of directions; - for standard input")
       ->type_name("FILE")
+      ->excludes(shadow_at)
       ->excludes(until)
       ->excludes(day);
   command.add_flag("--json", options.json, "One JSON object a line");

@@ -9,6 +9,7 @@
 #include "app/sky/sky_files.h"
 #include "app/sky/sky_moments.h"
 #include "base/error.h"
+#include "sky/clouds/cloud_layer.h"
 #include "sky/sky_model.h"
 
 namespace CLI {
@@ -51,7 +52,15 @@ struct SkyOptions {
   Span span;
   Model model;
   Picture picture;
+  /// Layers of clouds, as written, and their shadow at points.
+  struct Clouds {
+    std::vector<std::string> layers;
+    double seconds = 0.0;
+    std::string shadow_at;
+  };
+
   std::string csv;
+  Clouds clouds;
   bool json = false;
   std::string output;
 
@@ -70,6 +79,9 @@ Result<void> CheckUseOfSkyOptions(const CLI::App& command, const SkyOptions& opt
 
 /// The selected atmosphere and clouds.
 sky::SkyConditions ChosenConditions(const SkyOptions::Model& given);
+
+/// The layers of clouds. Errors (input): as clouds::ParseCloudLayer(), more than four.
+Result<std::vector<clouds::CloudLayer>> ChosenClouds(const SkyOptions::Clouds& given);
 
 /// One time, or all times of a span. Errors (input): invalid time.
 Result<std::vector<SkyMoment>> ChosenMoments(const SkyOptions::Span& span);

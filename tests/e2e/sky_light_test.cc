@@ -104,6 +104,52 @@ TEST(Sky, CloudsTakeTheSunAway) {
   EXPECT_GT(half.at("diffuse_share").get<double>(), clear.at("diffuse_share").get<double>());
 }
 
+// E of a slab of τ = 8 below a clear sky, by the table of R(μ₀) and S.
+TEST(Sky, HasTheLightOfALayerOfClouds) {
+  const json sky = RunJson(
+      {"sky", "--sun", "180,30", "--albedo", "0", "--cloud-layer", "kind=slab,optical_depth=8"});
+  const double sun = sky.at("clear_sun_normal_lux").get<double>() * 0.5;
+  const double above = sky.at("clear_global_horizontal_lux").get<double>() - sun;
+  const double expected = sun * (1.0 - 0.5582) + above * (1.0 - 0.4925);
+  EXPECT_NEAR(sky.at("global_horizontal_lux").get<double>() / expected, 1.0, 0.02);
+  EXPECT_NEAR(sky.at("mean_global_horizontal_lux").get<double>() / expected, 1.0, 0.002);
+  EXPECT_NEAR(sky.at("sun_transmittance").get<double>() / std::exp(-16.0), 1.0, 1e-3);
+  EXPECT_EQ(sky.at("cloud_layers").at(0).at("kind"), "slab");
+  EXPECT_EQ(sky.at("cloud_layers").at(0).at("cover_found"), 1.0);
+}
+
+// The shadow moves with the wind; other columns are kept.
+TEST(Sky, GivesTheShadowOfCloudsAtPoints) {
+  const TemporaryFolder folder;
+  std::string table = "id,north_m,east_m,seconds\n";
+  for (int i = 0; i < 40; ++i) {
+    const std::string north = std::to_string(150 * i);
+    table += "a," + north + ",0,0\n" + "b," + north + ",800,100\n";
+  }
+  WriteFile(folder / "in.csv", table);
+  const RunResult run = RunPleinair({"sky", "--sun", "180,40", "--cloud-layer",
+                                     "kind=cumulus,cover=0.3,wind_m_s=8,wind_from_deg=270",
+                                     "--shadow-at", folder / "in.csv"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const std::vector<std::string> lines = Lines(run.out);
+  ASSERT_EQ(lines.size(), 81u);
+  EXPECT_EQ(lines[0], "id,north_m,east_m,seconds,sun_transmittance,sun_normal_lux");
+  int lit = 0, shaded = 0;
+  for (std::size_t i = 1; i < lines.size(); i += 2) {
+    const double before = Numbers(lines[i].substr(2))[3];
+    EXPECT_NEAR(Numbers(lines[i + 1].substr(2))[3], before, 2e-3);
+    lit += before > 0.9;
+    shaded += before < 0.1;
+  }
+  EXPECT_GT(lit, 5);
+  EXPECT_GT(shaded, 5);
+  WriteFile(folder / "bad.csv", "east_m,north_m\n0,0\n0,x\n");
+  const RunResult bad = RunPleinair({"sky", "--sun", "180,40", "--cloud-layer", "kind=cumulus",
+                                     "--shadow-at", folder / "bad.csv"});
+  EXPECT_EQ(bad.exit_code, 2);
+  EXPECT_THAT(bad.err, HasSubstr("bad.csv:3: north_m \"x\" is not possible"));
+}
+
 TEST(Sky, LooksRedAtALowSunAndBlueAtTheZenith) {
   const TemporaryFolder folder;
   WriteFile(folder / "in.csv", "azimuth_deg,elevation_deg\n270,2\n270,20\n90,90\n");

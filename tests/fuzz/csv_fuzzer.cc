@@ -6,6 +6,7 @@
 
 #include "app/leaf/leaf_table.h"
 #include "app/leaf/spectrum_fit.h"
+#include "app/sky/shadow_points.h"
 #include "app/sky/sky_directions.h"
 #include "app/sun/sun_table.h"
 #include "scene/leaf_contents.h"
@@ -33,6 +34,20 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       }
     }
   } else if (table.error().what.empty()) {
+    std::abort();
+  }
+  if (const auto table = pleinair::app::ParseShadowPoints(text, "table", 0.0)) {
+    for (const auto& row : table->rows) {
+      if (!within(row.text)) std::abort();
+      if (!(std::fabs(row.place_m.x) <= 1e6 && std::fabs(row.seconds) <= 1e7)) std::abort();
+    }
+  } else if (table.error().what.empty()) {
+    std::abort();
+  }
+  // The text of a layer of clouds, from the command line.
+  if (const auto layer = pleinair::clouds::ParseCloudLayer(text)) {
+    if (!(layer->cover >= 0.0 && layer->cover <= 1.0)) std::abort();
+  } else if (layer.error().what.empty() || layer.error().remedy.empty()) {
     std::abort();
   }
   if (const auto leaves = pleinair::app::ParseLeafTable(text, "table")) {
