@@ -208,8 +208,11 @@ CloudSky::Seen CloudSky::Look(Direction<World> from) const {
       transmitted *= kept;
     });
     if (!first_m) continue;
-    const CloudFields above(fields_.begin() + static_cast<std::ptrdiff_t>(i) + 1, fields_.end());
-    const double shadow = PointSunTransmittance(above, *first_m, ToSun(), seconds_);
+    double above = 0.0;  // Optical depth of the higher layers towards the sun.
+    for (std::size_t j = i + 1; lit && j < fields_.size(); ++j) {
+      above += fields_[j]->DepthAlong(*first_m, sun, seconds_);
+    }
+    const double shadow = std::exp(-above);
     const double through = std::exp(-ray_depth);
     const double reflected = TableOf(field).Reflected(ray_depth * view.z, view.z);
     const double shape =
