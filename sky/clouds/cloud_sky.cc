@@ -34,8 +34,9 @@ LayerShares SharesOf(const CloudField& field, Direction<World> to_sun, double se
   const double cosine = std::max(to_sun.xyz.z, SlabTable::kMinCosine);
   LayerShares sum;
   for (int i = 0; i < kSamples * kSamples; ++i) {
-    const Vec3 ground{((i % kSamples + 0.5) / kSamples - 0.5) * kCoverSquare_m,
-                      ((i / kSamples + 0.5) / kSamples - 0.5) * kCoverSquare_m, 0.0};
+    const int column = i % kSamples, row = i / kSamples;
+    const Vec3 ground{((column + 0.5) / kSamples - 0.5) * kCoverSquare_m,
+                      ((row + 0.5) / kSamples - 0.5) * kCoverSquare_m, 0.0};
     const double slant = field.DepthAlong(ground, to_sun.xyz, seconds);
     sum.reflected += table.Reflected(slant * cosine, cosine);
     sum.direct += std::exp(-slant);
@@ -161,14 +162,15 @@ CloudSky::CloudSky(std::unique_ptr<sky::SkyModel> clear, CloudFields fields, dou
   std::stable_sort(fields_.begin(), fields_.end(), [](const auto& a, const auto& b) {
     return a->layer().base_m < b->layer().base_m;
   });
-  sun_transmittance_ = SunTransmittance(fields_, {}, ToSun(), seconds);
+  const Direction<World> to_sun = clear_->ToSun();
+  sun_transmittance_ = SunTransmittance(fields_, {}, to_sun, seconds);
   area_ = ComputeAreaLight(fields_, *clear_, ground_albedo, seconds);
   optics_->higher.reserve(fields_.size());
   for (const auto& field : fields_) {
-    optics_->higher.emplace_back(field->layer().kind, ToSun().xyz.z);
+    optics_->higher.emplace_back(field->layer().kind, to_sun.xyz.z);
   }
   if (!fields_.empty()) optics_->above_highest.emplace(*clear_, TableOf(*fields_.back()));
-  const double sun = Luminance(clear_->SunNormalIrradiance()) * std::max(0.0, ToSun().xyz.z);
+  const double sun = Luminance(clear_->SunNormalIrradiance()) * std::max(0.0, to_sun.xyz.z);
   const double above = Luminance(clear_->SkyHorizontalIrradiance()) + sun;
   if (above > 0.0) {
     optics_->global_share = Luminance(area_.sky_horizontal + area_.sun_horizontal) / above;
