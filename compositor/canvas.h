@@ -3,6 +3,7 @@
 #include "base/camera_model.h"
 #include "base/error.h"
 #include "compositor/composer_options.h"
+#include "compositor/lens/lens_pass.h"
 #include "compositor/passes/coarse_ratio.h"
 #include "compositor/passes/place_mean.h"
 #include "compositor/passes/render_camera.h"
@@ -18,6 +19,7 @@ struct Canvas {
   RenderTargets targets;
   PlaceMean places;
   CoarseRatio coarse;
+  LensPass lens;
   CameraPicture picture;
 
   /// For objects of `materials`. Errors as RenderTargets::Create() and CameraPicture::Create().

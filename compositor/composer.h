@@ -14,6 +14,7 @@
 #include "base/image.h"
 #include "base/vector.h"
 #include "compositor/composer_options.h"
+#include "compositor/lens/thin_lens.h"
 #include "compositor/light/light_mix.h"
 #include "compositor/light/lit_mesh.h"
 #include "compositor/light/sun_transmittance_map.h"
@@ -95,6 +96,15 @@ class Composer {
   /// pixels stay sharp and clean. Blur of the rendering itself (half a pixel's width) is not added
   /// again. Noise below two steps of 8 bits is omitted.
   virtual Result<void> SetCameraLook(const std::optional<CameraLook>& look) = 0;
+
+  /// Sets the lens that the next images are seen through; nothing, the default: all is in focus.
+  /// Surfaces are then out of focus by their distance, in addition to the blur of SetCameraLook().
+  /// Images whose circles of confusion are all below 0.3 pixels have the bytes of those without.
+  virtual void SetLens(const std::optional<ThinLens>& lens) = 0;
+
+  /// Diameter of the largest circle of confusion in the last image, camera pixels, over all that
+  /// virtual objects affect. 0: nothing was out of focus.
+  virtual double LargestCircle_px() const = 0;
 
   /// Updates all that Compose() carries to later images, and draws none. Later images have the same
   /// bytes as after Compose(). Errors as Compose().

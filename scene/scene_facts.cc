@@ -312,6 +312,7 @@ SceneFacts WithFallback(SceneFacts facts, const SceneFacts& fallback) {
     Fill(facts.marker.heading_deg, fallback.marker.heading_deg);
   }
   Fill(facts.marker.upright, fallback.marker.upright);
+  Fill(facts.recorded_lens, fallback.recorded_lens);
   Fill(facts.cloudiness, fallback.cloudiness);
   if (facts.camera_response.empty()) facts.camera_response = fallback.camera_response;
   return facts;
@@ -325,6 +326,8 @@ Result<SceneDescription> CompleteScene(const SceneFacts& facts, const std::files
   PLEINAIR_ASSIGN_OR_RETURN(scene.place_time, CompletePlaceTime(facts.place_time, name));
   PLEINAIR_ASSIGN_OR_RETURN(scene.marker, CompleteMarker(facts.marker, scene.place_time, name));
   scene.trajectory = facts.trajectory;
+  scene.lens = facts.lens;
+  scene.recorded_lens = facts.recorded_lens;
   PLEINAIR_ASSIGN_OR_RETURN(scene.anchors, CompleteAnchors(facts.anchors, scene.marker, name));
   // Otherwise an anchor of another family with the same number could pass for the marker.
   if (!scene.anchors.empty() && !scene.marker.family) scene.marker.family = kOurFamily;

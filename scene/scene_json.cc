@@ -2,7 +2,9 @@
 #include <array>
 #include <cctype>
 #include <cstdlib>
+#include <limits>
 #include <utility>
+#include <vector>
 
 #include "files/json_fields.h"
 #include "scene/cloudiness.h"
@@ -106,6 +108,35 @@ Result<void> ReadModel(const files::JsonFields& model, std::vector<ModelReferenc
   return {};
 }
 
+// A number, or a list with one a frame.
+Result<std::optional<std::vector<double>>> NumbersOf(const files::JsonFields& fields,
+                                                     const char* key) {
+  const files::Json* value = fields.Find(key);
+  if (value == nullptr) return std::nullopt;
+  if (value->is_array()) return fields.Numbers(key);
+  PLEINAIR_ASSIGN_OR_RETURN(const std::optional<double> number, fields.Number(key));
+  if (!number) return std::nullopt;
+  return std::vector<double>{*number};
+}
+
+// Metadata of the lens, under the keys of [lens] in a scene.toml. `focus_dioptres` may stand in
+// place of `focus_m`.
+Result<LensDescription> ReadLens(const files::JsonFields& lens) {
+  LensFacts facts;
+  if (lens.TextOr("focus_m") == "infinity") {
+    facts.focus_m = {std::numeric_limits<double>::infinity()};
+  } else {
+    PLEINAIR_ASSIGN_OR_RETURN(facts.focus_m, NumbersOf(lens, "focus_m"));
+  }
+  PLEINAIR_ASSIGN_OR_RETURN(facts.focus_dioptres, NumbersOf(lens, "focus_dioptres"));
+  PLEINAIR_ASSIGN_OR_RETURN(facts.aperture_mm, lens.Number("aperture_mm"));
+  PLEINAIR_ASSIGN_OR_RETURN(facts.f_number, lens.Number("f_number"));
+  PLEINAIR_ASSIGN_OR_RETURN(facts.focal_length_mm, lens.Number("focal_length_mm"));
+  PLEINAIR_ASSIGN_OR_RETURN(facts.blades, lens.Integer("blades"));
+  PLEINAIR_ASSIGN_OR_RETURN(facts.blade_rotation_deg, lens.Number("blade_rotation_deg"));
+  return CompleteLens(facts, lens.name());
+}
+
 // The verbal weather description. The amounts and the model in `sky` are ground truth and are not
 // read.
 std::optional<Cloudiness> ReadCloudiness(const files::JsonFields& fields) {
@@ -132,6 +163,9 @@ Result<SceneFacts> ParseSceneJson(std::string_view bytes, const std::string& nam
   PLEINAIR_RETURN_IF_ERROR(ReadModel(fields.Object("real_geometry"), &facts.phantoms));
   PLEINAIR_RETURN_IF_ERROR(ReadModel(fields.Object("virtual_object"), &facts.objects));
   facts.cloudiness = ReadCloudiness(fields);
+  if (fields.Has("lens")) {
+    PLEINAIR_ASSIGN_OR_RETURN(facts.recorded_lens, ReadLens(fields.Object("lens")));
+  }
   for (const files::JsonFields& block : {fields, fields.Object("calibration")}) {
     PLEINAIR_ASSIGN_OR_RETURN(const std::optional<std::string> response,
                               block.Text("camera_response"));

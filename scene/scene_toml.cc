@@ -8,6 +8,7 @@
 #include "scene/cloudiness.h"
 #include "scene/scene_facts.h"
 #include "scene/toml_leaves.h"
+#include "scene/toml_lens.h"
 #include "scene/toml_surfaces.h"
 #include "scene/toml_table.h"
 #include "scene/toml_trajectory.h"
@@ -92,7 +93,7 @@ Result<std::vector<AnchorFacts>> ReadAnchors(const TomlTable& scene) {
 Result<SceneFacts> ReadScene(const TomlTable& scene) {
   PLEINAIR_RETURN_IF_ERROR(scene.AllowOnly(
       {"time", "cloudiness", "turbidity", "exposure_gain", "camera_response", "place", "marker",
-       "anchor", "ground", "box", "wall", "phantom", "object", "leaf", "trajectory"}));
+       "anchor", "ground", "box", "wall", "phantom", "object", "leaf", "trajectory", "lens"}));
   SceneFacts facts;
   PLEINAIR_ASSIGN_OR_RETURN(facts.place_time.start, ReadTime(scene, "time"));
   PLEINAIR_ASSIGN_OR_RETURN(const std::vector<TomlTable> places, scene.Tables("place"));
@@ -106,6 +107,7 @@ Result<SceneFacts> ReadScene(const TomlTable& scene) {
   if (!markers.empty()) PLEINAIR_RETURN_IF_ERROR(ReadMarker(markers[0], &facts.marker));
   PLEINAIR_ASSIGN_OR_RETURN(facts.anchors, ReadAnchors(scene));
   PLEINAIR_ASSIGN_OR_RETURN(facts.trajectory, ReadTrajectoryTable(scene));
+  PLEINAIR_ASSIGN_OR_RETURN(facts.lens, ReadLensTable(scene));
   PLEINAIR_ASSIGN_OR_RETURN(facts.phantoms, ReadModels(scene, "phantom"));
   PLEINAIR_RETURN_IF_ERROR(ReadDescribedSurfaces(scene, &facts.phantoms));
   PLEINAIR_RETURN_IF_ERROR(ReadGround(scene, &facts.ground));

@@ -38,10 +38,10 @@ CameraLook MedianLook(const std::deque<CameraLook>& looks) {
 std::optional<CameraLook> CameraLookFilter::Update(
     ImageView<const std::uint8_t> rgb, const CameraModel& camera,
     const Transform<Camera, Marker>& camera_from_marker, const scene::MarkerReflectance& marker,
-    const CameraResponse& response) {
+    const CameraResponse& response, const std::optional<compositor::ThinLens>& lens) {
   if (frames_to_next_-- > 0) return std::nullopt;
   const auto measured =
-      compositor::MeasureCameraLook(rgb, camera, camera_from_marker, marker, response);
+      compositor::MeasureCameraLook(rgb, camera, camera_from_marker, marker, response, lens);
   if (!measured) return std::nullopt;
   frames_to_next_ = kStep - 1;
   recent_.push_back(*measured);

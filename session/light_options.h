@@ -6,6 +6,7 @@
 #include "base/camera_response.h"
 #include "compositor/photometry/light_overrides.h"
 #include "scene/scene_description.h"
+#include "session/frame_lens.h"
 
 namespace pleinair::session {
 
@@ -23,6 +24,7 @@ struct LightOptions {
   compositor::LightOverrides overrides;
   LightChangeMode changes = LightChangeMode::kFollow;
   bool match_look = true;  ///< Drawn pixels receive the frames' blur and noise.
+  DefocusOptions defocus = {};
   /// Objects that cover the marker are in front of the virtual objects.
   bool hands_in_front = false;
   /// Overrides the scene's; empty: as in the scene. kSrgbResponse: sRGB, whatever the frames show.

@@ -8,6 +8,7 @@
 #include "compositor/photometry/measured_light.h"
 #include "compositor/photometry/surface_colors.h"
 #include "compositor/picture/camera_look.h"
+#include "session/frame_lens.h"
 #include "session/light_follower.h"
 #include "sky/sun/sun_position.h"
 
@@ -54,6 +55,13 @@ struct SurfaceColorSummary {
   compositor::SurfaceColor measured;
 };
 
+/// How the lens of the frames was drawn.
+struct LensSummary {
+  DefocusSource source = DefocusSource::kOff;
+  std::optional<compositor::ThinLens> lens;  ///< At the last frame.
+  double largest_circle_px = 0.0;            ///< Over all frames so far.
+};
+
 /// Light of a frame: sun, sky and exposure.
 struct LightSummary {
   sky::SunPosition sun;
@@ -69,6 +77,7 @@ struct LightSummary {
   ExposureHistory exposures;
   /// Blur and noise of the last frames. Empty where they are not matched or cannot be measured.
   std::optional<compositor::CameraLook> look;
+  LensSummary lens;
   compositor::MeasuredLight measured;  ///< Sun, sky and heading.
   ResponseSummary response;
   std::vector<SurfaceColorSummary> surface_colors;

@@ -214,6 +214,7 @@ Result<ComposedFrame> Pipeline::Compose(CameraImageView image,
   const Observation& seen = pose->observation;
   compositor::MarkerVisibility visibility;
   if (hands_in_front_) visibility = VisibilityOf(scene_.marker, pose->marker, seen);
+  renderer_->UseLensOf(seen.frame_index);
   PLEINAIR_ASSIGN_OR_RETURN(
       composed.image, renderer_->Render(image, seen.camera_from_marker, time, visibility, followed,
                                         ShowsReferenceMarker(seen)));
@@ -230,6 +231,7 @@ Result<ComposedFrame> Pipeline::Advance(CameraImageView image,
   if (!pose) return advanced;
   MeterLightOn(pose->marker);
   const Observation& seen = pose->observation;
+  renderer_->UseLensOf(seen.frame_index);
   PLEINAIR_RETURN_IF_ERROR(renderer_->Advance(image, seen.camera_from_marker, time,
                                               FollowedIn(seen), ShowsReferenceMarker(seen)));
   if (!renderer_->DrawsObjects()) return advanced;

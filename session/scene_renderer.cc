@@ -93,6 +93,9 @@ Result<std::unique_ptr<SceneRenderer>> SceneRenderer::Create(
     const compositor::ComposerOptions& options, const LightOptions& light) {
   std::unique_ptr<SceneRenderer> renderer(new SceneRenderer(camera, scene));
   if (light.match_look) renderer->look_.emplace();
+  PLEINAIR_ASSIGN_OR_RETURN(renderer->lens_,
+                            FrameLens::Create(scene, light.defocus, light.match_look));
+  renderer->summary_.lens.source = renderer->lens_.source();
   renderer->edited_.first_places = UneditedScene(scene, options, 0.0).objects;
   std::vector<compositor::PlacedModel>& placed = renderer->placed_;
   for (const scene::ModelReference& phantom : scene.phantoms) {
@@ -323,11 +326,17 @@ void SceneRenderer::SummarizeLight(const FollowedLight& followed) {
   summary_.frame.sky_on_white = baked.daylight.SkyHorizontalIrradiance() * followed.mix.sky * white;
 }
 
+void SceneRenderer::UseLensOf(std::int64_t frame_index) {
+  summary_.lens.source = lens_.source();
+  summary_.lens.lens = lens_.Of(frame_index);
+  if (composer_) composer_->SetLens(summary_.lens.lens);
+}
+
 Result<void> SceneRenderer::UpdateCameraLook(CameraImageView image,
                                              const Transform<Camera, Marker>& camera_from_marker) {
   if (!look_) return {};
-  const auto look =
-      look_->Update(image.rgb(), camera_, camera_from_marker, marker_reflectance_, response_);
+  const auto look = look_->Update(image.rgb(), camera_, camera_from_marker, marker_reflectance_,
+                                  response_, summary_.lens.lens);
   if (!look) return {};
   summary_.look = look;
   return composer_->SetCameraLook(look);
@@ -375,6 +384,8 @@ Result<RgbImage> SceneRenderer::Render(CameraImageView image,
   const auto start = Clock::now();
   PLEINAIR_ASSIGN_OR_RETURN(RgbImage composed,
                             composer_->Compose(image, camera_from_marker, summary_.exposure_scale));
+  summary_.lens.largest_circle_px =
+      std::max(summary_.lens.largest_circle_px, composer_->LargestCircle_px());
   compositor::PutInFront(image.rgb(),
                          compositor::MaskOccluder(image.rgb(), camera_, camera_from_marker, cover),
                          &composed);

@@ -22,6 +22,7 @@
 #include "session/baked_lighting.h"
 #include "session/camera_look_filter.h"
 #include "session/exposure_meter.h"
+#include "session/frame_lens.h"
 #include "session/light_follower.h"
 #include "session/light_options.h"
 #include "session/light_summary.h"
@@ -102,6 +103,9 @@ class SceneRenderer {
   /// of the light.
   Result<void> Edit(const SceneEdit& edit);
 
+  /// Uses the lens of a frame from now on.
+  void UseLensOf(std::int64_t frame_index);
+
   /// Response of the camera: as in the scene, estimated, or sRGB.
   const CameraResponse& response() const { return response_; }
 
@@ -174,6 +178,7 @@ class SceneRenderer {
   std::unique_ptr<compositor::Composer> composer_;
   ExposureMeter exposure_;
   std::optional<CameraLookFilter> look_;  // Empty: drawn pixels stay sharp and clean.
+  FrameLens lens_;
   Edited edited_;
   LightSummary summary_;
   RenderTimes times_;

@@ -136,6 +136,8 @@ Result<RgbImage> ShowAll([[maybe_unused]] LiveSession& session, [[maybe_unused]]
   options.drawing.show_shadow_maps = arguments.shadow_debug;
   PLEINAIR_ASSIGN_OR_RETURN(options.drawing.antialiasing,
                             ParseAntialiasing(arguments.antialiasing));
+  session::DefocusOptions defocus;
+  PLEINAIR_RETURN_IF_ERROR(ParseDefocus(arguments.defocus, &defocus, &options.drawing));
   options.convergence = arguments.light.convergence;
   options.live_camera = source.camera;
   options.seconds = arguments.seconds;
@@ -199,6 +201,8 @@ Result<void> RunLive(const CLI::App& command, const LiveArguments& arguments) {
   options.composer.show_shadow_maps = arguments.shadow_debug;
   PLEINAIR_ASSIGN_OR_RETURN(options.composer.antialiasing,
                             ParseAntialiasing(arguments.antialiasing));
+  PLEINAIR_RETURN_IF_ERROR(
+      ParseDefocus(arguments.defocus, &options.light.defocus, &options.composer));
   const scene::SceneDescription scene = options.scene;
   options.shown_elsewhere = !arguments.headless;
   options.lossless = arguments.lossless;
@@ -295,6 +299,7 @@ void AddLiveCommand(CLI::App& app, CommandResult& result) {
   AddSolverOptions(*command, a.light);
   AddModelFileOptions(*command);
   AddAntialiasingOptions(*command, a.antialiasing);
+  AddDefocusOptions(*command, a.defocus);
   command->add_flag("--shadow-debug", a.shadow_debug,
                     "Tint surfaces by shadow-map partition and show the maps (in the window: M)");
   command->add_flag("--headless", a.headless, "Without a window");

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/options/antialiasing_options.h"
+#include "app/options/defocus_options.h"
 #include "app/replay/replay.h"
 
 namespace pleinair::app {
@@ -25,6 +26,7 @@ struct ReplayArguments {
   struct Drawing {
     std::vector<double> fog;
     AntialiasingArguments antialiasing;
+    DefocusArguments defocus;
   } drawing;
   struct Day {
     std::string hours, every;

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "app/options/antialiasing_options.h"
+#include "app/options/defocus_options.h"
 #include "app/options/light_options.h"
 #include "app/options/model_options.h"
 #include "app/options/number_range.h"
@@ -61,6 +62,7 @@ void AddReplayOptions(CLI::App& command, ReplayArguments& arguments) {
       ->check(NumberRange(0.0, 1e6))
       ->type_name("TIMES,...");
   AddAntialiasingOptions(command, arguments.drawing.antialiasing);
+  AddDefocusOptions(command, arguments.drawing.defocus);
   CLI::Option* time_lapse = command.add_option(
       "--time-lapse", arguments.day.hours,
       "Also draw the whole scene, phantoms in their own colours, over time: timelapse.mp4 and the "

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/options/antialiasing_options.h"
+#include "app/options/defocus_options.h"
 #include "session/light_options.h"
 
 namespace pleinair::app {
@@ -45,6 +46,7 @@ struct LiveArguments {
   LiveWindowArguments window;
   session::LightOptions light;
   AntialiasingArguments antialiasing;
+  DefocusArguments defocus;
   std::optional<double> seconds, report_every_s;
   bool headless = false, lossless = false, json = false, shadow_debug = false;
 };

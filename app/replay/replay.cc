@@ -43,6 +43,7 @@ void Describe(const devices::Recording& recording, const ReplayState& state, Rep
   report->scene.phantoms = scene.phantoms.size();
   report->film.frame_rate_hz = recording.frame_rate_hz;
   report->film.antialiasing = state.options.composer.antialiasing;
+  report->film.lens_places = state.options.composer.lens_places;
   report->film.samples = state.renderer().samples();
   report->film.curve = recording.curve;
   report->film.width = state.pipeline->output_camera().width;

@@ -51,6 +51,8 @@ class RenderTargets {
   /// Samples per pixel that are drawn.
   int samples() const { return content_.multisampled ? samples_.ids.samples() : 1; }
   const gl::GlTexture& ids() const { return samples_.ids; }
+  /// Depth of ids(), per sample.
+  const gl::GlTexture& depth() const { return samples_.depth; }
   const gl::GlTexture& texels() const { return samples_.texels; }
   /// Bumps of the surface (shaders/surface_gradient.glsl) and texels of its emission, per sample.
   const gl::GlTexture& gradients() const { return samples_.gradients; }

@@ -27,14 +27,43 @@ struct EdgePixel {
   double distance_px, value;
 };
 
+/// An edge's brightness, and its derivatives by distance and by blur.
+struct EdgeProfile {
+  double value = 0.0, slope = 0.0, by_blur = 0.0;
+};
+
+EdgeProfile GaussianEdge(double distance_px, double blur_px) {
+  const double t = distance_px / blur_px, slope = Gauss(t) / blur_px;
+  return {GaussIntegral(t), slope, -slope * t};
+}
+
+/// The edge after a disc of this diameter and a Gaussian. The disc's chords are integrated by the
+/// Gauss–Chebyshev rule of the second kind.
+EdgeProfile DefocusedEdge(double distance_px, double circle_px, double blur_px) {
+  constexpr double kMinCircle_px = 0.05;
+  if (circle_px < kMinCircle_px) return GaussianEdge(distance_px, blur_px);
+  constexpr int kNodes = 16;
+  EdgeProfile sum;
+  for (int k = 1; k <= kNodes; ++k) {
+    const double angle = k * std::numbers::pi / (kNodes + 1);
+    const double weight = 2.0 / (kNodes + 1) * std::sin(angle) * std::sin(angle);
+    const EdgeProfile edge = GaussianEdge(distance_px - 0.5 * circle_px * std::cos(angle), blur_px);
+    sum.value += weight * edge.value;
+    sum.slope += weight * edge.slope;
+    sum.by_blur += weight * edge.by_blur;
+  }
+  return sum;
+}
+
 /// Least-squares fit of black + (white − black) Φ((d − shift) / blur) by Gauss–Newton with damped
-/// steps (Levenberg 1944). Returns nothing if the pixels are no such edge.
-std::optional<double> FitBlur(const std::vector<EdgePixel>& pixels) {
+/// steps (Levenberg 1944). With a circle of confusion, Φ is blurred by its disc. Returns nothing if
+/// the pixels are no such edge.
+std::optional<double> FitBlur(const std::vector<EdgePixel>& pixels, double circle_px) {
   double shift = 0.0, blur = 0.7, damping = 1e-3;
   const auto cost_of = [&](double s, double b) {
     double cost = 0.0;
     for (const EdgePixel& p : pixels) {
-      const double r = p.value - GaussIntegral((p.distance_px - s) / b);
+      const double r = p.value - DefocusedEdge(p.distance_px - s, circle_px, b).value;
       cost += r * r;
     }
     return cost;
@@ -43,9 +72,9 @@ std::optional<double> FitBlur(const std::vector<EdgePixel>& pixels) {
   for (int iteration = 0; iteration < 30; ++iteration) {
     double a00 = 0.0, a01 = 0.0, a11 = 0.0, g0 = 0.0, g1 = 0.0;
     for (const EdgePixel& p : pixels) {
-      const double t = (p.distance_px - shift) / blur;
-      const double residual = p.value - GaussIntegral(t);
-      const double by_shift = -Gauss(t) / blur, by_blur = -Gauss(t) * t / blur;
+      const EdgeProfile edge = DefocusedEdge(p.distance_px - shift, circle_px, blur);
+      const double residual = p.value - edge.value;
+      const double by_shift = -edge.slope, by_blur = edge.by_blur;
       a00 += by_shift * by_shift;
       a01 += by_shift * by_blur;
       a11 += by_blur * by_blur;
@@ -138,7 +167,8 @@ void AddStripe(const MarkerInImage& marker, int side, double along,
 
 }  // namespace
 
-std::vector<double> EstimateEdgeBlur(const MarkerInImage& marker) {
+std::vector<double> EstimateEdgeBlur(const MarkerInImage& marker,
+                                     const std::array<double, 4>& circles_px) {
   std::vector<double> blurs;
   for (int side = 0; side < 4; ++side) {
     std::vector<EdgePixel> pixels;
@@ -147,7 +177,7 @@ std::vector<double> EstimateEdgeBlur(const MarkerInImage& marker) {
       AddStripe(marker, side, 0.8 * (2.0 * (i + 0.5) / kStripesPerSide - 1.0), &pixels);
     }
     if (static_cast<int>(pixels.size()) < kMinPixels) continue;
-    if (const auto blur = FitBlur(pixels)) blurs.push_back(*blur);
+    if (const auto blur = FitBlur(pixels, circles_px[side])) blurs.push_back(*blur);
   }
   return blurs;
 }

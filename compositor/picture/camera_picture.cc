@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <glm/glm.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/check.h"
@@ -79,19 +80,24 @@ Result<CameraPicture> CameraPicture::Create(const CameraModel& camera, const Ren
   PLEINAIR_RETURN_IF_ERROR(picture.CreateResponseTables());
   for (const bool coarse : {false, true}) {
     for (const bool grain : {false, true}) {
-      std::vector<std::string> defines;
-      if (!response.IsSrgb()) defines.emplace_back("CAMERA_RESPONSE");
-      if (!camera.HasDistortion() && supersampling == 1.0) defines.emplace_back("SAME_PIXELS");
-      if (coarse) defines.emplace_back("COARSE_RATIO");
-      if (grain) defines.emplace_back("GRAIN");
       PLEINAIR_ASSIGN_OR_RETURN(
           picture.programs_.composite[coarse ? 1 : 0][grain ? 1 : 0],
-          gl::GlProgram::Create({.vertex = "compositor/shaders/screen_triangle.vert",
-                                 .fragment = "compositor/shaders/composite.frag",
-                                 .defines = defines}));
+          picture.CreateComposite(
+              coarse ? std::vector<std::string>{"COARSE_RATIO"} : std::vector<std::string>{},
+              grain));
     }
   }
   return picture;
+}
+
+Result<gl::GlProgram> CameraPicture::CreateComposite(std::vector<std::string> defines,
+                                                     bool grain) const {
+  if (!response_.curve.IsSrgb()) defines.emplace_back("CAMERA_RESPONSE");
+  if (!camera_.HasDistortion() && supersampling_ == 1.0) defines.emplace_back("SAME_PIXELS");
+  if (grain) defines.emplace_back("GRAIN");
+  return gl::GlProgram::Create({.vertex = "compositor/shaders/screen_triangle.vert",
+                                .fragment = "compositor/shaders/composite.frag",
+                                .defines = defines});
 }
 
 Result<void> CameraPicture::CreateResponseTables() {
@@ -220,8 +226,14 @@ ImageTiles CameraPicture::SetTiles(const AffectedTiles& tiles) {
   return fine;
 }
 
-void CameraPicture::Draw(const RenderTargets& targets, const gl::GlTexture& coarse_ratio,
-                         const AffectedTiles& tiles) {
+Result<void> CameraPicture::Draw(const RenderTargets& targets, const gl::GlTexture& coarse_ratio,
+                                 const AffectedTiles& tiles, const RealOccluders* occluders) {
+  std::optional<gl::GlProgram>& occluded = programs_.occluded[grain_.look ? 1 : 0];
+  if (occluders != nullptr && !occluded) {
+    PLEINAIR_ASSIGN_OR_RETURN(gl::GlProgram program,
+                              CreateComposite({"OCCLUDED"}, grain_.look.has_value()));
+    occluded.emplace(std::move(program));
+  }
   if (added_blur_px_ > 0.0) Blur(targets, tiles);
   output_.framebuffer.Bind();
   if (!response_.curve.IsSrgb()) {
@@ -233,15 +245,22 @@ void CameraPicture::Draw(const RenderTargets& targets, const gl::GlTexture& coar
   positions_.Bind(3);
   no_attributes_.Bind();
   const auto draw = [&](const gl::GlTexture& ratio, bool coarse) {
-    const gl::GlProgram& program = programs_.composite[coarse ? 1 : 0][grain_.look ? 1 : 0];
+    const bool is_occluded = occluders != nullptr && !coarse;
+    const gl::GlProgram& program =
+        is_occluded ? *occluded : programs_.composite[coarse ? 1 : 0][grain_.look ? 1 : 0];
     program.Use();
     if (grain_.look) SetGrain(program);
     ratio.Bind(1);
     DrawWithin(coarse ? output_.coarse : output_.fine);
   };
+  if (occluders != nullptr) {
+    occluders->background().Bind(7);
+    occluders->occluders().Bind(8);
+  }
   draw(targets.ratio(), false);
   draw(coarse_ratio, true);
   ++grain_.pictures;
+  return {};
 }
 
 RgbImage CameraPicture::Read(ImageView<const std::uint8_t> rgb) const {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "base/camera_image.h"
@@ -11,6 +12,7 @@
 #include "base/camera_response.h"
 #include "base/error.h"
 #include "base/image.h"
+#include "compositor/lens/real_occluders.h"
 #include "compositor/passes/render_camera.h"
 #include "compositor/passes/render_targets.h"
 #include "compositor/picture/camera_look.h"
@@ -47,9 +49,10 @@ class CameraPicture {
   /// need the full resolution. Returns the tiles that must be drawn at full resolution.
   ImageTiles SetTiles(const AffectedTiles& tiles);
   /// Composes the drawn and resolved `targets` and the coarse ratio. The blur is applied to
-  /// `targets` in place, in the tiles with objects and those drawn at full resolution.
-  void Draw(const RenderTargets& targets, const gl::GlTexture& coarse_ratio,
-            const AffectedTiles& tiles);
+  /// `targets` in place, in the tiles with objects and those drawn at full resolution. `occluders`:
+  /// real surfaces that cover objects over a part of the lens; null: none. Errors as Create().
+  Result<void> Draw(const RenderTargets& targets, const gl::GlTexture& coarse_ratio,
+                    const AffectedTiles& tiles, const RealOccluders* occluders = nullptr);
   /// Binds the camera image, the render pixels' positions in it, and the table of linear light per
   /// pixel value.
   void BindForShading(int background_unit, int positions_unit, int light_unit) const {
@@ -83,6 +86,7 @@ class CameraPicture {
   struct Programs {
     // Second index: without and with grain. First index: fine and coarse.
     std::array<std::array<gl::GlProgram, 2>, 2> composite;
+    std::array<std::optional<gl::GlProgram>, 2> occluded;  // Fine; created on first use.
     gl::GlProgram blur, blur_of_ratio;
   };
   /// The sensor's noise.
@@ -95,6 +99,8 @@ class CameraPicture {
   /// What the tile whose first pixel is (x, y) samples. `positions`: RenderPositions().
   static Sampled SampledFrom(int x, int y, const Image<float>& positions);
   Result<void> CreateResponseTables();
+  /// The last program. `defines`: in addition to those that camera and response need.
+  Result<gl::GlProgram> CreateComposite(std::vector<std::string> defines, bool grain) const;
   int BlurReach_px() const;
   void Blur(const RenderTargets& targets, const AffectedTiles& tiles) const;
   void SetGrain(const gl::GlProgram& program) const;

@@ -4,7 +4,8 @@
 // CAMERA_RESPONSE: pixel values follow the camera's own response, by table, instead of sRGB. GRAIN:
 // drawn pixels receive the camera's noise. COARSE_RATIO: the ratio is on the grid of
 // compositor/passes/coarse_ratio.h, and there is no object. SAME_PIXELS: render pixels are camera
-// pixels.
+// pixels. OCCLUDED: real surfaces cover objects over a part of the lens
+// (compositor/lens/real_occluders.h).
 
 #include "compositor/shaders/srgb_transfer.glsl"
 
@@ -40,6 +41,12 @@ vec3 EncodedFromLinear(vec3 light) {
 #else
 vec3 LinearFromEncoded(vec3 encoded) { return LinearFromSrgb(encoded); }
 vec3 EncodedFromLinear(vec3 light) { return SrgbFromLinear(light); }
+#endif
+
+#ifdef OCCLUDED
+// Light behind the objects, and the share of the lens that real surfaces before them cover.
+layout(binding = 7) uniform sampler2D u_behind_objects;
+layout(binding = 8) uniform sampler2D u_occluders;  // Their light.
 #endif
 
 #ifdef GRAIN
@@ -86,6 +93,16 @@ void main() {
   vec3 behind = LinearFromEncoded(background.rgb);
   vec3 kept = max(ratio - object.a, 0.0);  // Zero where the object covers the pixel.
   vec3 light = behind * kept + object.rgb;
+#ifdef OCCLUDED
+  // The frame's light is that of occluder and background. The object replaces the background alone,
+  // by its share of the lens.
+  vec2 in_render = position / vec2(textureSize(u_objects, 0));
+  vec4 replaced = texture(u_behind_objects, in_render);
+  vec3 light_kept = object.a < 0.999 ? kept / (1.0 - object.a) : vec3(1.0);
+  vec3 with_occluder = light + object.a * light_kept * (behind - replaced.rgb);
+  with_occluder = max(with_occluder, replaced.a * texture(u_occluders, in_render).rgb);
+  light = replaced.a > 0.0 ? with_occluder : light;
+#endif
 #ifdef GRAIN
   light += MissingGrain(pixel, light, behind, kept);
 #endif

@@ -1,6 +1,9 @@
 #include "devices/recordings/recording.h"
 
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -146,6 +149,21 @@ fs::path FramesOf(const RecordingManifest& manifest, const fs::path& folder) {
     return folder / "background.mp4";
   }
   return named.lexically_normal();
+}
+
+/// A list of focus distances must have one a frame.
+Result<void> CheckFocusList(const Recording& recording) {
+  if (!recording.scene || !recording.scene->recorded_lens) return {};
+  const std::size_t focus = recording.scene->recorded_lens->focus_dioptres.size();
+  const std::optional<std::int64_t> frames = recording.frames->FrameCount();
+  if (focus < 2 || !frames || !recording.frames->CountsExactly() ||
+      static_cast<std::int64_t>(focus) == *frames) {
+    return {};
+  }
+  return InputError((recording.path / "recording.json").string(),
+                    "\"lens\" has a list of " + std::to_string(focus) + " focus distances for " +
+                        std::to_string(*frames) + " frames",
+                    "give one value, or one for each frame");
 }
 
 Result<Recording> OpenOwnFolder(const fs::path& folder, const RecordingOptions& options) {
@@ -301,7 +319,9 @@ Result<Recording> OpenRecording(const fs::path& path, const RecordingOptions& op
     const fs::path name = path.filename();
     // The path of a description file stands for its recording's folder.
     if (name == "recording.json" || name == "scene.json") {
-      return OpenOwnFolder(path.parent_path(), options);
+      PLEINAIR_ASSIGN_OR_RETURN(Recording recording, OpenOwnFolder(path.parent_path(), options));
+      PLEINAIR_RETURN_IF_ERROR(CheckFocusList(recording));
+      return recording;
     }
     return OpenPlainFile(path, options);
   }
@@ -309,7 +329,9 @@ Result<Recording> OpenRecording(const fs::path& path, const RecordingOptions& op
     return InputError(path.string(), "there is no such recording", "check the name and the folder");
   }
   if (IsNamed(path / "recording.json") || IsNamed(path / "scene.json")) {
-    return OpenOwnFolder(path, options);
+    PLEINAIR_ASSIGN_OR_RETURN(Recording recording, OpenOwnFolder(path, options));
+    PLEINAIR_RETURN_IF_ERROR(CheckFocusList(recording));
+    return recording;
   }
   for (const fs::path& camera : {path / "mav0" / "cam0", path / "cam0", path}) {
     if (IsFile(camera / "data.csv")) return OpenEuroc(path, camera, options);

@@ -145,6 +145,24 @@ Json SamplesOf(const ReplayedFilm& film) {
   return film.antialiasing.method == Method::kReference ? film.antialiasing.places : *film.samples;
 }
 
+/// The lens that the objects are seen through.
+Json LensJson(const session::LightSummary& light, const ReplayedFilm& film) {
+  const session::LensSummary& drawn = light.lens;
+  const bool is_drawn = drawn.lens.has_value();
+  const double focus = is_drawn ? drawn.lens->focus_dioptres : 0.0;
+  return {
+      {"defocus", session::NameOf(drawn.source)},
+      {"method", is_drawn ? Json("lens:" + std::to_string(film.lens_places)) : Json()},
+      {"focus_m", IfKnown(focus > 0.0, 1.0 / focus)},
+      {"aperture_mm", IfKnown(is_drawn, is_drawn ? 1e3 * drawn.lens->aperture_m : 0.0)},
+      {"focus_dioptres_error", Json()},
+      {"aperture_relative_error", Json()},
+      {"in_focus_blur_px", IfKnown(is_drawn && light.look, light.look ? light.look->blur_px : 0.0)},
+      {"largest_blur_px", Rounded(drawn.largest_circle_px)},
+      {"layers", Json()},
+      {"peels", Json()}};
+}
+
 Json LightJson(const session::LightSummary& light) {
   const bool is_metered =
       light.exposure_scale_source == session::LightSummary::ExposureScaleSource::kMarker;
@@ -311,6 +329,7 @@ std::string ReportJson(const ReplayReport& report) {
   json["phantoms"] = report.scene.phantoms;
   json["antialiasing"] = {{"method", compositor::NameOf(report.film.antialiasing.method)},
                           {"samples", SamplesOf(report.film)}};
+  json["lens"] = report.light ? LensJson(*report.light, report.film) : Json();
   json["light"] = report.light ? LightJson(*report.light) : Json();
   if (report.light) json["light"]["changes"] = ChangesJson(report.light_changes);
   json["video_encoder"] =

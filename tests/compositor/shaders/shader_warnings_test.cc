@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "compositor/embedded_shaders.h"
+#include "compositor/lens/lens_views.h"
+#include "compositor/lens/real_occluders.h"
 #include "compositor/passes/object_pass.h"
 #include "compositor/passes/place_mean.h"
 #include "compositor/passes/shadow_debug_view.h"
@@ -52,6 +54,11 @@ TEST_F(ShaderWarnings, AreNoneOfShadowMethods) {
       ExpectCreated(SurfacePrograms::Create(options, {.fades = fades, .needs_airlight = true}));
     }
   }
+}
+
+TEST_F(ShaderWarnings, AreNoneOfTheLens) {
+  ExpectCreated(LensViews::Create(16, 16));
+  ExpectCreated(RealOccluders::Create(16, 16));
 }
 
 TEST_F(ShaderWarnings, AreNoneOfSurfaces) {

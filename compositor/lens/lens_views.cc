@@ -1,0 +1,147 @@
+#include "compositor/lens/lens_views.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+
+#include "compositor/lens/lens_view.h"
+#include "compositor/lens/nearest_fill.h"
+#include "compositor/lens/stop_places.h"
+
+namespace pleinair::compositor {
+namespace {
+
+// Shares of the lens that count as occluded and as showing an object.
+constexpr float kMinShare = 0.02F;
+
+Image<float> Downloaded(const gl::GlTexture& texture, GLenum format, int channels) {
+  Image<float> image(texture.width(), texture.height(), channels);
+  texture.Download(format, GL_FLOAT, std::as_writable_bytes(std::span(image.data(), image.size())));
+  return image;
+}
+
+}  // namespace
+
+Result<LensViews> LensViews::Create(int width, int height) {
+  LensViews views;
+  for (gl::GlTexture* sum : {&views.sums_.ratio, &views.sums_.objects}) {
+    PLEINAIR_ASSIGN_OR_RETURN(*sum, gl::GlTexture::Create2D(GL_RGBA32F, width, height));
+  }
+  for (gl::GlTexture* pair : {&views.sums_.distance, &views.range_}) {
+    PLEINAIR_ASSIGN_OR_RETURN(*pair, gl::GlTexture::Create2D(GL_RG32F, width, height));
+  }
+  for (gl::GlTexture* single : {&views.sums_.share, &views.virtual_}) {
+    PLEINAIR_ASSIGN_OR_RETURN(*single, gl::GlTexture::Create2D(GL_R32F, width, height));
+  }
+  PLEINAIR_ASSIGN_OR_RETURN(
+      views.sums_.pictures,
+      gl::GlFramebuffer::Create(
+          {{{&views.sums_.ratio}, {&views.sums_.objects}, {&views.sums_.distance}}, {}}));
+  PLEINAIR_ASSIGN_OR_RETURN(views.sums_.occluders,
+                            gl::GlFramebuffer::Create({{{&views.sums_.share}}, {}}));
+  PLEINAIR_ASSIGN_OR_RETURN(views.range_target_,
+                            gl::GlFramebuffer::Create({{{&views.range_}}, {}}));
+  const auto create = [](const char* fragment) {
+    return gl::GlProgram::Create(
+        {.vertex = "compositor/shaders/screen_triangle.vert", .fragment = fragment});
+  };
+  PLEINAIR_ASSIGN_OR_RETURN(views.programs_.affected,
+                            create("compositor/shaders/lens_affected.frag"));
+  PLEINAIR_ASSIGN_OR_RETURN(views.programs_.view, create("compositor/shaders/lens_view.frag"));
+  PLEINAIR_ASSIGN_OR_RETURN(views.programs_.copy, create("compositor/shaders/place_mean.frag"));
+  PLEINAIR_ASSIGN_OR_RETURN(views.programs_.occluders,
+                            create("compositor/shaders/lens_occluders.frag"));
+  views.no_attributes_ = gl::GlVertexArray::Create();
+  return views;
+}
+
+LensViews::Range LensViews::AffectedDioptres(const RenderTargets& targets,
+                                             const shadows::View& view,
+                                             std::span<const PixelRect> within) const {
+  range_target_.Bind();
+  range_target_.ClearColor(0, 1e30F, -1e30F, 0, 0);
+  no_attributes_.Bind();
+  targets.depth().Bind(0);
+  targets.ratio().Bind(1);
+  targets.objects().Bind(2);
+  programs_.affected.Use();
+  SetLensDepth(programs_.affected, view, targets.samples());
+  DrawWithin(within);
+  const Image<float> ranges = Downloaded(range_, GL_RG, 2);
+  Range all;
+  for (std::size_t i = 0; i < ranges.size(); i += 2) {
+    all.min = std::min(all.min, ranges.data()[i]);
+    all.max = std::max(all.max, ranges.data()[i + 1]);
+  }
+  return all;
+}
+
+void LensViews::Draw(const RenderTargets& targets, const LensFrame& lens_frame,
+                     std::span<const PixelRect> within, const DrawFrame& draw) const {
+  sums_.pictures.Bind();
+  for (const int sum : {0, 1, 2}) sums_.pictures.ClearColor(sum, 0, 0, 0, 0);
+  const float weight = 1.0F / static_cast<float>(lens_frame.places);
+  for (const Vec2 place : StopPlaces(lens_frame.lens.stop, lens_frame.places)) {
+    draw(SeenThroughPlace(lens_frame.frame, lens_frame.view, lens_frame.lens,
+                          place * (lens_frame.lens.aperture_m / 2)));
+    sums_.pictures.Bind();
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE);
+    no_attributes_.Bind();
+    targets.depth().Bind(0);
+    targets.ratio().Bind(1);
+    targets.objects().Bind(2);
+    targets.ids().Bind(3);
+    programs_.view.Use();
+    SetLensDepth(programs_.view, lens_frame.view, targets.samples());
+    programs_.view.Set("u_weight", weight);
+    DrawWithin(within);
+    glDisable(GL_BLEND);
+  }
+  targets.BeginPass(true);
+  sums_.ratio.Bind(0);
+  sums_.objects.Bind(1);
+  programs_.copy.Use();
+  programs_.copy.Set("u_weight", 1.0F);
+  DrawWithin(within);
+}
+
+bool LensViews::MeasureOccluders(const RenderTargets& targets, const LensFrame& lens_frame,
+                                 std::span<const PixelRect> within, const DrawFrame& draw_real) {
+  const Image<float> sums = Downloaded(sums_.distance, GL_RG, 2);
+  Image<float> distances(sums.width(), sums.height()), shares(sums.width(), sums.height());
+  for (std::size_t i = 0; i < shares.size(); ++i) {
+    const float share = sums.data()[2 * i + 1];
+    shares.data()[i] = share;
+    if (share > 0.0F) distances.data()[i] = sums.data()[2 * i] / share;
+  }
+  virtual_.Upload(GL_RED, GL_FLOAT, FillFromNearest(distances, shares).data());
+
+  sums_.occluders.Bind();
+  sums_.occluders.ClearColor(0, 0, 0, 0, 0);
+  const float weight = 1.0F / static_cast<float>(lens_frame.places);
+  for (const Vec2 place : StopPlaces(lens_frame.lens.stop, lens_frame.places)) {
+    draw_real(SeenThroughPlace(lens_frame.frame, lens_frame.view, lens_frame.lens,
+                               place * (lens_frame.lens.aperture_m / 2)));
+    sums_.occluders.Bind();
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE);
+    no_attributes_.Bind();
+    targets.depth().Bind(0);
+    virtual_.Bind(1);
+    programs_.occluders.Use();
+    SetLensDepth(programs_.occluders, lens_frame.view, targets.samples());
+    programs_.occluders.Set("u_weight", weight);
+    DrawWithin(within);
+    glDisable(GL_BLEND);
+  }
+  const Image<float> occluded = Downloaded(sums_.share, GL_RED, 1);
+  for (std::size_t i = 0; i < occluded.size(); ++i) {
+    if (occluded.data()[i] > kMinShare && shares.data()[i] > kMinShare) return true;
+  }
+  return false;
+}
+
+}  // namespace pleinair::compositor

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "base/error.h"
+#include "base/image.h"
+#include "compositor/lens/thin_lens.h"
+#include "compositor/passes/frame_uniforms.h"
+#include "compositor/passes/render_targets.h"
+#include "compositor/surfaces/image_tiles.h"
+#include "gl/framebuffer.h"
+#include "gl/program.h"
+#include "gl/texture.h"
+#include "gl/vertex_array.h"
+#include "shadows/light_window.h"
+
+namespace pleinair::compositor {
+
+/// A frame with the view that it shows and the lens that it is seen through.
+struct LensFrame {
+  const FrameUniforms& frame;
+  const shadows::View& view;
+  const ThinLens& lens;
+  int places = 32;  ///< Places on the stop, drawn one after another.
+};
+
+/// Draws the virtual image through many places of the lens's stop and averages the linear light: in
+/// the limit the image of a thin lens, with all that its parts hide from one another. Needs a
+/// current OpenGL context; move-only.
+class LensViews {
+ public:
+  /// Draws a scene as a frame shows it.
+  using DrawFrame = std::function<void(const FrameUniforms&)>;
+
+  LensViews() = default;
+  /// For render targets of this size. Errors as gl::GlTexture::Create2D() and
+  /// gl::GlProgram::Create().
+  static Result<LensViews> Create(int width, int height);
+
+  /// Returns the reciprocal distances, 1/m, of all that virtual objects affect in the drawn
+  /// `targets`: the smallest and the largest; the first is larger where nothing is affected.
+  struct Range {
+    float min = 1e30F, max = -1e30F;
+  };
+  Range AffectedDioptres(const RenderTargets& targets, const shadows::View& view,
+                         std::span<const PixelRect> within) const;
+
+  /// Calls `draw` for each place on the stop. It has to draw targets.ratio() and targets.objects(),
+  /// which have the means afterwards. `within`: all pixels drawn, in disjoint rectangles.
+  void Draw(const RenderTargets& targets, const LensFrame& lens_frame,
+            std::span<const PixelRect> within, const DrawFrame& draw) const;
+
+  /// Measures occluders after Draw(). `draw_real` has to draw the real surfaces alone. Returns
+  /// whether any pixel with objects has real surfaces in front of them over a part of the lens.
+  /// occluder_share() then has the share of each pixel.
+  bool MeasureOccluders(const RenderTargets& targets, const LensFrame& lens_frame,
+                        std::span<const PixelRect> within, const DrawFrame& draw_real);
+  /// Share of the lens that shows a real surface in front of the objects, one channel.
+  const gl::GlTexture& occluder_share() const { return sums_.share; }
+
+ private:
+  struct Sums {
+    gl::GlTexture ratio, objects, distance, share;
+    gl::GlFramebuffer pictures, occluders;
+  };
+  struct Programs {
+    gl::GlProgram affected, view, copy, occluders;
+  };
+
+  Sums sums_;
+  gl::GlTexture range_, virtual_;
+  gl::GlFramebuffer range_target_;
+  Programs programs_;
+  gl::GlVertexArray no_attributes_;
+};
+
+}  // namespace pleinair::compositor
