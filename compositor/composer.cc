@@ -14,8 +14,7 @@
 
 #include "compositor/canvas.h"
 #include "compositor/embedded_shaders.h"
-#include "compositor/lens/lens_pass.h"
-#include "compositor/lens/thin_lens.h"
+#include "compositor/lens_drawing.h"
 #include "compositor/light/changing/changing_bodies.h"
 #include "compositor/passes/frame_daylight.h"
 #include "compositor/passes/frame_uniforms.h"
@@ -78,8 +77,8 @@ class GlComposer : public Composer {
   void AssumeUnmodelledShadows(bool look) override { unmodelled_.assume_unmodelled = look; }
   Result<void> SetSunTransmittance(
       const std::shared_ptr<const SunTransmittanceMap>& sun_transmittance) override;
-  void SetLens(const std::optional<ThinLens>& lens) override { lens_.lens = lens; }
-  double LargestCircle_px() const override { return lens_.largest_circle_px; }
+  void SetLens(const std::optional<ThinLens>& lens) override { lens_.SetLens(lens); }
+  double LargestCircle_px() const override { return lens_.largest_circle_px(); }
   Result<void> SkipImage(const Transform<Camera, Marker>& camera_from_marker) override;
   Result<void> SetCameraLook(const std::optional<CameraLook>& look) override {
     PLEINAIR_RETURN_IF_ERROR(context_.MakeCurrent());
@@ -109,9 +108,6 @@ class GlComposer : public Composer {
                         LinearRgb exposure_scale) const;
   AffectedTiles DrawCoarse(const SurfacePrograms& programs, const shadows::View& view,
                            const FrameUniforms& frame);
-  Result<const RealOccluders*> DrawThroughLens(const SurfacePrograms& programs,
-                                               const shadows::View& view,
-                                               const FrameUniforms& frame, AffectedTiles* tiles);
   FogSplits FogBeforeObjects(const shadows::View& view, const glm::dvec3& eye_m) const;
   Result<void> DrawDebugView(const shadows::View& view);
 
@@ -120,10 +116,7 @@ class GlComposer : public Composer {
   ComposerOptions options_;
   Canvas canvas_;
   std::optional<CameraLook> look_;
-  struct {
-    std::optional<ThinLens> lens;
-    double largest_circle_px = 0.0;
-  } lens_;
+  LensDrawing lens_;
   ShadowRatioPass::ShadowOptions unmodelled_;
   FrameDaylight light_;
   Passes passes_;
@@ -346,45 +339,6 @@ AffectedTiles GlComposer::DrawCoarse(const SurfacePrograms& programs, const shad
   return {tiles.objects, canvas_.picture.SetTiles(tiles), tiles.all};
 }
 
-/// Draws the image anew as the lens shows it, if anything is out of focus: the pinhole image must
-/// be drawn. `tiles`: those of that image, then those of the lens. Returns the real surfaces that
-/// cover objects over a part of the lens; null without any.
-Result<const RealOccluders*> GlComposer::DrawThroughLens(const SurfacePrograms& programs,
-                                                         const shadows::View& view,
-                                                         const FrameUniforms& frame,
-                                                         AffectedTiles* tiles) {
-  lens_.largest_circle_px = 0.0;
-  if (!lens_.lens) return nullptr;
-  const LensFrame lens{frame, view, *lens_.lens, options_.lens_places};
-  PLEINAIR_ASSIGN_OR_RETURN(
-      const double circle_px,
-      canvas_.lens.LargestCircle_px(canvas_.targets, lens, canvas_.camera, tiles->fine));
-  lens_.largest_circle_px = circle_px * camera_.fx / canvas_.camera.fx;
-  if (lens_.largest_circle_px < LensPass::kMinCircle_px) return nullptr;
-  // Nothing is interpolated from the coarse ratio, which is not blurred.
-  *tiles = surfaces_.TilesOf(ProjectionOf(
-      canvas_.camera, view,
-      canvas_.picture.Spread_px() + canvas_.places.Spread_px() + LensPass::Spread_px(circle_px)));
-  if (options_.show_shadow_maps) tiles->all.IncludeAll();
-  tiles->fine.Include(tiles->all);
-  tiles->fine = canvas_.picture.SetTiles(*tiles);
-  tiles->objects = tiles->fine;
-  const std::vector<PixelRect> within = tiles->fine.Rectangles();
-  canvas_.lens.Draw(canvas_.targets, lens, within, [&](const FrameUniforms& through) {
-    canvas_.places.Draw(canvas_.targets, through, within,
-                        [&](const FrameUniforms& place) { DrawScene(programs, place, *tiles); });
-  });
-  return canvas_.lens.OccludersIn(
-      canvas_.targets, lens, within,
-      [&](const FrameUniforms& through) {
-        EnableSurfaceTests();
-        passes_.ratio.DrawSurfaces(canvas_.targets, surfaces_, through, tiles->fine.Bounds());
-        glDisable(GL_CULL_FACE);
-        glDisable(GL_DEPTH_TEST);
-      },
-      [&] { canvas_.picture.BindForShading(2, 3, 4); });
-}
-
 /// Brings shapes and shadow maps up to date, and classifies the surfaces by them.
 Result<shadows::View> GlComposer::UpdateScene(const Transform<Camera, Marker>& camera_from_marker) {
   if (changing_ && !changing_->meshes().empty()) {
@@ -427,8 +381,16 @@ Result<RgbImage> GlComposer::Compose(CameraImageView image,
                       [&](const FrameUniforms& place) { DrawScene(*programs, place, tiles); });
   // Airlight in front of surfaces is drawn into the objects' image.
   if (frame.needs_airlight) tiles.objects.Include(tiles.fine);
-  PLEINAIR_ASSIGN_OR_RETURN(const RealOccluders* occluders,
-                            DrawThroughLens(*programs, view, frame, &tiles));
+  const LensScene seen{canvas_,
+                       surfaces_,
+                       passes_.ratio,
+                       options_.lens_places,
+                       options_.show_shadow_maps,
+                       camera_.fx,
+                       [&](const FrameUniforms& through, const AffectedTiles& drawn) {
+                         DrawScene(*programs, through, drawn);
+                       }};
+  PLEINAIR_ASSIGN_OR_RETURN(const RealOccluders* occluders, lens_.Draw(seen, frame, view, &tiles));
   PLEINAIR_RETURN_IF_ERROR(
       canvas_.picture.Draw(canvas_.targets, canvas_.coarse.ratio(), tiles, occluders));
   if (options_.show_shadow_maps && light_.HasSun()) {
