@@ -77,7 +77,9 @@ class GlComposer : public Composer {
   void AssumeUnmodelledShadows(bool look) override { unmodelled_.assume_unmodelled = look; }
   Result<void> SetSunTransmittance(
       const std::shared_ptr<const SunTransmittanceMap>& sun_transmittance) override;
-  void SetLens(const std::optional<ThinLens>& lens) override { lens_.SetLens(lens); }
+  void SetLens(const std::optional<ThinLens>& lens, int places) override {
+    lens_.SetLens(lens, places);
+  }
   double LargestCircle_px() const override { return lens_.largest_circle_px(); }
   Result<void> SkipImage(const Transform<Camera, Marker>& camera_from_marker) override;
   Result<void> SetCameraLook(const std::optional<CameraLook>& look) override {
@@ -108,7 +110,6 @@ class GlComposer : public Composer {
                         LinearRgb exposure_scale) const;
   AffectedTiles DrawCoarse(const SurfacePrograms& programs, const shadows::View& view,
                            const FrameUniforms& frame);
-  FogSplits FogBeforeObjects(const shadows::View& view, const glm::dvec3& eye_m) const;
   Result<void> DrawDebugView(const shadows::View& view);
 
   gl::EglContext context_;  // First, so that it outlives the GL objects.
@@ -248,17 +249,6 @@ Result<void> GlComposer::SetSunTransmittance(
   return light_.SetTransmittance(sun_transmittance);
 }
 
-FogSplits GlComposer::FogBeforeObjects(const shadows::View& view, const glm::dvec3& eye_m) const {
-  const shadows::Box& objects = surfaces_.placement().object_bounds();
-  const glm::dvec3 to_objects = 0.5 * (objects.min + objects.max) - eye_m;
-  const double far_off = glm::length(to_objects);
-  return light_.air().Along(
-      far_off > 0.0 ? to_objects / far_off : glm::dvec3(0.0, 1.0, 0.0),
-      shadows::PracticalSplits(view.near_m, view.far_m, options_.shadow_partitions,
-                               options_.shadow_split_weight),
-      options_.fog);
-}
-
 /// Draws over the composed image.
 Result<void> GlComposer::DrawDebugView(const shadows::View& view) {
   const shadows::ShadowMaps& maps = shadows_.maps();
@@ -313,7 +303,8 @@ FrameUniforms GlComposer::FrameOf(const shadows::View& view,
   frame.ray = RaysThroughPixels(canvas_.camera, view);
   frame.exposure_scale = ToGlm(exposure_scale);
   light_.SetUniforms(&frame);
-  frame.fog = FogBeforeObjects(view, frame.eye_m);
+  frame.fog =
+      FogBefore(surfaces_.placement().object_bounds(), light_.air(), view, frame.eye_m, options_);
   for (glm::vec3& light : frame.fog.inscattered) light *= frame.environment.below_mix;
   frame.needs_airlight = frame.IsNoticed(frame.fog.inscattered.back());
   frame.linear_needs_airlight =
@@ -384,7 +375,7 @@ Result<RgbImage> GlComposer::Compose(CameraImageView image,
   const LensScene seen{canvas_,
                        surfaces_,
                        passes_.ratio,
-                       options_.lens_places,
+
                        options_.show_shadow_maps,
                        camera_.fx,
                        [&](const FrameUniforms& through, const AffectedTiles& drawn) {

@@ -100,7 +100,8 @@ class Composer {
   /// Sets the lens that the next images are seen through; nothing, the default: all is in focus.
   /// Surfaces are then out of focus by their distance, in addition to the blur of SetCameraLook().
   /// Images whose circles of confusion are all below 0.3 pixels have the bytes of those without.
-  virtual void SetLens(const std::optional<ThinLens>& lens) = 0;
+  /// `places`: on the stop, drawn one after another, 1…1024.
+  virtual void SetLens(const std::optional<ThinLens>& lens, int places) = 0;
 
   /// Diameter of the largest circle of confusion in the last image, camera pixels, over all that
   /// virtual objects affect. 0: nothing was out of focus.

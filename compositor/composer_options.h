@@ -37,9 +37,6 @@ struct DrawReductions {
 /// How a Composer draws.
 struct ComposerOptions {
   Antialiasing antialiasing = {};
-  /// Places on the lens's stop that are drawn one after another, 1…1024, where Composer::SetLens()
-  /// puts something out of focus.
-  int lens_places = 32;
   /// Render pixels per camera pixel and side, in addition to the antialiasing. 0: 1 for a lens
   /// without distortion, 1.5 for one with distortion, whose image is warped.
   double supersampling = 0.0;

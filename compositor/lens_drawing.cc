@@ -14,7 +14,7 @@ Result<const RealOccluders*> LensDrawing::Draw(const LensScene& scene, const Fra
   largest_circle_px_ = 0.0;
   if (!lens_) return nullptr;
   Canvas& canvas = scene.canvas;
-  const LensFrame lens{frame, view, *lens_, scene.places};
+  const LensFrame lens{frame, view, *lens_, places_};
   PLEINAIR_ASSIGN_OR_RETURN(
       const double circle_px,
       canvas.lens.LargestCircle_px(canvas.targets, lens, canvas.camera, tiles->fine));

@@ -20,7 +20,6 @@ struct LensScene {
   Canvas& canvas;
   const SceneSurfaces& surfaces;  ///< Classified.
   const ShadowRatioPass& ratio;
-  int places = 32;            ///< ComposerOptions::lens_places.
   bool includes_all = false;  ///< Draws all tiles of the image.
   double camera_fx = 0.0;     ///< Of the camera image, pixels.
   /// Draws the scene as a frame shows it into the tiles.
@@ -30,7 +29,11 @@ struct LensScene {
 /// The lens of a Composer, and how much of its last image was out of focus.
 class LensDrawing {
  public:
-  void SetLens(const std::optional<ThinLens>& lens) { lens_ = lens; }
+  /// As Composer::SetLens().
+  void SetLens(const std::optional<ThinLens>& lens, int places) {
+    lens_ = lens;
+    places_ = places;
+  }
   /// As Composer::LargestCircle_px().
   double largest_circle_px() const { return largest_circle_px_; }
 
@@ -42,6 +45,7 @@ class LensDrawing {
 
  private:
   std::optional<ThinLens> lens_;
+  int places_ = 1;
   double largest_circle_px_ = 0.0;
 };
 

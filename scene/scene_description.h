@@ -10,9 +10,9 @@
 #include "base/up_axis.h"
 #include "base/utc_time.h"
 #include "base/vector.h"
+#include "scene/camera_description.h"
 #include "scene/described_surface.h"
 #include "scene/leaf_description.h"
-#include "scene/lens_description.h"
 #include "scene/trajectory_description.h"
 
 namespace pleinair::scene {
@@ -102,13 +102,10 @@ struct SceneDescription {
   std::vector<ModelReference> objects;   ///< Virtual objects.
   std::vector<LeafDescription> leaves;   ///< In place of materials of the objects.
   Cloudiness cloudiness = Cloudiness::kClear;
-  std::optional<double> turbidity;               ///< Overrides the default of the cloudiness.
-  std::optional<LinearRgb> exposure_scale;       ///< Overrides the exposure scale estimated on the
-                                                 ///< marker.
-  std::optional<LensDescription> lens;           ///< As the user states it.
-  std::optional<LensDescription> recorded_lens;  ///< As the recording's metadata states it.
-  std::filesystem::path
-      camera_response;  ///< File (devices/calibration/response_file.h); empty: sRGB.
+  std::optional<double> turbidity;          ///< Overrides the default of the cloudiness.
+  std::optional<LinearRgb> exposure_scale;  ///< Overrides the exposure scale estimated on the
+                                            ///< marker.
+  CameraDescription camera;
 };
 
 /// Reads the scene from one of three kinds of file, distinguished by content

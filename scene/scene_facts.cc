@@ -312,9 +312,9 @@ SceneFacts WithFallback(SceneFacts facts, const SceneFacts& fallback) {
     Fill(facts.marker.heading_deg, fallback.marker.heading_deg);
   }
   Fill(facts.marker.upright, fallback.marker.upright);
-  Fill(facts.recorded_lens, fallback.recorded_lens);
+  Fill(facts.camera.recorded_lens, fallback.camera.recorded_lens);
   Fill(facts.cloudiness, fallback.cloudiness);
-  if (facts.camera_response.empty()) facts.camera_response = fallback.camera_response;
+  if (facts.camera.response.empty()) facts.camera.response = fallback.camera.response;
   return facts;
 }
 
@@ -326,8 +326,8 @@ Result<SceneDescription> CompleteScene(const SceneFacts& facts, const std::files
   PLEINAIR_ASSIGN_OR_RETURN(scene.place_time, CompletePlaceTime(facts.place_time, name));
   PLEINAIR_ASSIGN_OR_RETURN(scene.marker, CompleteMarker(facts.marker, scene.place_time, name));
   scene.trajectory = facts.trajectory;
-  scene.lens = facts.lens;
-  scene.recorded_lens = facts.recorded_lens;
+  scene.camera.lens = facts.camera.lens;
+  scene.camera.recorded_lens = facts.camera.recorded_lens;
   PLEINAIR_ASSIGN_OR_RETURN(scene.anchors, CompleteAnchors(facts.anchors, scene.marker, name));
   // Otherwise an anchor of another family with the same number could pass for the marker.
   if (!scene.anchors.empty() && !scene.marker.family) scene.marker.family = kOurFamily;
@@ -350,7 +350,7 @@ Result<SceneDescription> CompleteScene(const SceneFacts& facts, const std::files
   scene.cloudiness = facts.cloudiness.value_or(Cloudiness::kClear);
   scene.turbidity = facts.turbidity;
   scene.exposure_scale = facts.exposure_scale;
-  scene.camera_response = facts.camera_response;
+  scene.camera.response = facts.camera.response;
   return scene;
 }
 
@@ -363,8 +363,8 @@ Result<void> CheckModelsExist(const SceneDescription& scene) {
         std::string("names the ") + what + " " + named.string() + ", which is not there",
         "put the file there or correct the name in the scene");
   };
-  if (!scene.camera_response.empty()) {
-    PLEINAIR_RETURN_IF_ERROR(check("camera response", scene.camera_response));
+  if (!scene.camera.response.empty()) {
+    PLEINAIR_RETURN_IF_ERROR(check("camera response", scene.camera.response));
   }
   for (const std::vector<ModelReference>* models : {&scene.phantoms, &scene.objects}) {
     for (const ModelReference& model : *models) {

@@ -60,10 +60,7 @@ struct SceneFacts {
   std::optional<Cloudiness> cloudiness;
   std::optional<double> turbidity;
   std::optional<LinearRgb> exposure_scale;
-  std::optional<LensDescription> lens;           ///< Of a scene.toml.
-  std::optional<LensDescription> recorded_lens;  ///< Of a recording.json.
-  std::filesystem::path camera_response;  ///< Resolved against the folder of the file that names
-                                          ///< it; empty if absent.
+  CameraDescription camera;
 
   /// True if place, time and marker, which every scene needs, are all missing.
   bool LacksPlaceTimeAndMarker() const {

@@ -164,13 +164,13 @@ Result<SceneFacts> ParseSceneJson(std::string_view bytes, const std::string& nam
   PLEINAIR_RETURN_IF_ERROR(ReadModel(fields.Object("virtual_object"), &facts.objects));
   facts.cloudiness = ReadCloudiness(fields);
   if (fields.Has("lens")) {
-    PLEINAIR_ASSIGN_OR_RETURN(facts.recorded_lens, ReadLens(fields.Object("lens")));
+    PLEINAIR_ASSIGN_OR_RETURN(facts.camera.recorded_lens, ReadLens(fields.Object("lens")));
   }
   for (const files::JsonFields& block : {fields, fields.Object("calibration")}) {
     PLEINAIR_ASSIGN_OR_RETURN(const std::optional<std::string> response,
                               block.Text("camera_response"));
     if (!response || response->empty()) continue;
-    facts.camera_response =
+    facts.camera.response =
         (std::filesystem::path(name).parent_path() / *response).lexically_normal();
   }
   PLEINAIR_RETURN_IF_ERROR(CheckRanges(facts, name));

@@ -107,7 +107,7 @@ Result<SceneFacts> ReadScene(const TomlTable& scene) {
   if (!markers.empty()) PLEINAIR_RETURN_IF_ERROR(ReadMarker(markers[0], &facts.marker));
   PLEINAIR_ASSIGN_OR_RETURN(facts.anchors, ReadAnchors(scene));
   PLEINAIR_ASSIGN_OR_RETURN(facts.trajectory, ReadTrajectoryTable(scene));
-  PLEINAIR_ASSIGN_OR_RETURN(facts.lens, ReadLensTable(scene));
+  PLEINAIR_ASSIGN_OR_RETURN(facts.camera.lens, ReadLensTable(scene));
   PLEINAIR_ASSIGN_OR_RETURN(facts.phantoms, ReadModels(scene, "phantom"));
   PLEINAIR_RETURN_IF_ERROR(ReadDescribedSurfaces(scene, &facts.phantoms));
   PLEINAIR_RETURN_IF_ERROR(ReadGround(scene, &facts.ground));
@@ -127,7 +127,7 @@ Result<SceneFacts> ReadScene(const TomlTable& scene) {
     facts.exposure_scale = LinearRgb{exposure_scale->x, exposure_scale->y, exposure_scale->z};
   PLEINAIR_ASSIGN_OR_RETURN(const auto response, scene.Text("camera_response"));
   if (response) {
-    facts.camera_response =
+    facts.camera.response =
         (std::filesystem::path(scene.file()).parent_path() / *response).lexically_normal();
   }
   return facts;

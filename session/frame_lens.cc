@@ -16,7 +16,7 @@ Result<FrameLens> FrameLens::Create(const scene::SceneDescription& scene,
   FrameLens lens;
   if (options.mode == DefocusMode::kOff) return lens;
   if (options.mode == DefocusMode::kAuto && !match_look) return lens;
-  scene::LensDescription stated = scene.lens.value_or(scene::LensDescription());
+  scene::LensDescription stated = scene.camera.lens.value_or(scene::LensDescription());
   if (options.focus_dioptres) stated.focus_dioptres = {*options.focus_dioptres};
   if (options.aperture_m) stated.aperture_m = options.aperture_m;
   if (options.mode == DefocusMode::kStated && !stated.IsComplete()) {
@@ -26,14 +26,15 @@ Result<FrameLens> FrameLens::Create(const scene::SceneDescription& scene,
                       "--aperture-mm");
   }
   lens.source_ = DefocusSource::kStated;
-  if (!stated.IsComplete() && scene.recorded_lens) {
+  if (!stated.IsComplete() && scene.camera.recorded_lens) {
     // What the recording states completes what the scene leaves out.
     lens.source_ = DefocusSource::kMetadata;
-    if (stated.focus_dioptres.empty()) stated.focus_dioptres = scene.recorded_lens->focus_dioptres;
-    if (!stated.aperture_m) stated.aperture_m = scene.recorded_lens->aperture_m;
-    if (!scene.lens) {
-      stated.blades = scene.recorded_lens->blades;
-      stated.blade_rotation_deg = scene.recorded_lens->blade_rotation_deg;
+    if (stated.focus_dioptres.empty())
+      stated.focus_dioptres = scene.camera.recorded_lens->focus_dioptres;
+    if (!stated.aperture_m) stated.aperture_m = scene.camera.recorded_lens->aperture_m;
+    if (!scene.camera.lens) {
+      stated.blades = scene.camera.recorded_lens->blades;
+      stated.blade_rotation_deg = scene.camera.recorded_lens->blade_rotation_deg;
     }
   }
   if (!stated.IsComplete()) {

@@ -21,6 +21,7 @@ struct DefocusOptions {
   DefocusMode mode = DefocusMode::kAuto;
   std::optional<double> focus_dioptres;
   std::optional<double> aperture_m;
+  int places = 32;  ///< On the stop, drawn one after another, 1…1024.
 };
 
 /// Which of them is in use.

@@ -5,7 +5,7 @@ namespace pleinair::session {
 scene::SceneDescription WithGiven(const scene::SceneDescription& scene,
                                   const LightOptions& options) {
   scene::SceneDescription given = scene;
-  if (!options.camera_response.empty()) given.camera_response = options.camera_response;
+  if (!options.camera_response.empty()) given.camera.response = options.camera_response;
   if (options.overrides.heading_deg) {
     given.marker.heading = FromDegrees(*options.overrides.heading_deg);
   }

@@ -55,10 +55,14 @@ struct SurfaceColorSummary {
   compositor::SurfaceColor measured;
 };
 
-/// How the lens of the frames was drawn.
-struct LensSummary {
-  DefocusSource source = DefocusSource::kOff;
+/// How drawn pixels were made to look like the camera's.
+struct CameraSummary {
+  /// Blur and noise of the last frames; with a lens, the blur is that in focus. Empty where they
+  /// are not matched or cannot be measured.
+  std::optional<compositor::CameraLook> look;
+  DefocusSource defocus = DefocusSource::kOff;
   std::optional<compositor::ThinLens> lens;  ///< At the last frame.
+  int lens_places = 0;                       ///< DefocusOptions::places.
   double largest_circle_px = 0.0;            ///< Over all frames so far.
 };
 
@@ -75,9 +79,7 @@ struct LightSummary {
   /// ExposureFilter::Error() with the errors that all frames share; only for kMarker.
   LinearRgb exposure_scale_error;
   ExposureHistory exposures;
-  /// Blur and noise of the last frames. Empty where they are not matched or cannot be measured.
-  std::optional<compositor::CameraLook> look;
-  LensSummary lens;
+  CameraSummary camera;
   compositor::MeasuredLight measured;  ///< Sun, sky and heading.
   ResponseSummary response;
   std::vector<SurfaceColorSummary> surface_colors;

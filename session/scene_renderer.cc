@@ -92,10 +92,11 @@ Result<std::unique_ptr<SceneRenderer>> SceneRenderer::Create(
     const CameraModel& camera, const scene::SceneDescription& scene,
     const compositor::ComposerOptions& options, const LightOptions& light) {
   std::unique_ptr<SceneRenderer> renderer(new SceneRenderer(camera, scene));
-  if (light.match_look) renderer->look_.emplace();
-  PLEINAIR_ASSIGN_OR_RETURN(renderer->lens_,
+  if (light.match_look) renderer->matched_.look.emplace();
+  PLEINAIR_ASSIGN_OR_RETURN(renderer->matched_.lens,
                             FrameLens::Create(scene, light.defocus, light.match_look));
-  renderer->summary_.lens.source = renderer->lens_.source();
+  renderer->summary_.camera.lens_places = light.defocus.places;
+  renderer->summary_.camera.defocus = renderer->matched_.lens.source();
   renderer->edited_.first_places = UneditedScene(scene, options, 0.0).objects;
   std::vector<compositor::PlacedModel>& placed = renderer->placed_;
   for (const scene::ModelReference& phantom : scene.phantoms) {
@@ -109,16 +110,16 @@ Result<std::unique_ptr<SceneRenderer>> SceneRenderer::Create(
   PLEINAIR_RETURN_IF_ERROR(ReplaceByLeaves(scene.leaves, scene.place_time.start, &placed));
   if (scene.objects.empty()) return renderer;
   compositor::ComposerOptions composing = options;
-  if (!scene.camera_response.empty()) {
+  if (!scene.camera.response.empty()) {
     renderer->summary_.response.source = ResponseSummary::Source::kStated;
   } else if (light.film_response && !light.film_response->IsSrgb()) {
     renderer->summary_.response.source = ResponseSummary::Source::kFilm;
     composing.response = *light.film_response;
     renderer->response_ = composing.response;
   }
-  if (!scene.camera_response.empty() && scene.camera_response != kSrgbResponse) {
+  if (!scene.camera.response.empty() && scene.camera.response != kSrgbResponse) {
     PLEINAIR_ASSIGN_OR_RETURN(composing.response,
-                              devices::ReadCameraResponse(scene.camera_response));
+                              devices::ReadCameraResponse(scene.camera.response));
     renderer->response_ = composing.response;
   }
   const compositor::LightSolverOptions solving = SolverOptionsOf(light);
@@ -327,18 +328,17 @@ void SceneRenderer::SummarizeLight(const FollowedLight& followed) {
 }
 
 void SceneRenderer::UseLensOf(std::int64_t frame_index) {
-  summary_.lens.source = lens_.source();
-  summary_.lens.lens = lens_.Of(frame_index);
-  if (composer_) composer_->SetLens(summary_.lens.lens);
+  summary_.camera.lens = matched_.lens.Of(frame_index);
+  if (composer_) composer_->SetLens(summary_.camera.lens, summary_.camera.lens_places);
 }
 
 Result<void> SceneRenderer::UpdateCameraLook(CameraImageView image,
                                              const Transform<Camera, Marker>& camera_from_marker) {
-  if (!look_) return {};
-  const auto look = look_->Update(image.rgb(), camera_, camera_from_marker, marker_reflectance_,
-                                  response_, summary_.lens.lens);
+  if (!matched_.look) return {};
+  const auto look = matched_.look->Update(image.rgb(), camera_, camera_from_marker,
+                                          marker_reflectance_, response_, summary_.camera.lens);
   if (!look) return {};
-  summary_.look = look;
+  summary_.camera.look = look;
   return composer_->SetCameraLook(look);
 }
 
@@ -384,8 +384,8 @@ Result<RgbImage> SceneRenderer::Render(CameraImageView image,
   const auto start = Clock::now();
   PLEINAIR_ASSIGN_OR_RETURN(RgbImage composed,
                             composer_->Compose(image, camera_from_marker, summary_.exposure_scale));
-  summary_.lens.largest_circle_px =
-      std::max(summary_.lens.largest_circle_px, composer_->LargestCircle_px());
+  summary_.camera.largest_circle_px =
+      std::max(summary_.camera.largest_circle_px, composer_->LargestCircle_px());
   compositor::PutInFront(image.rgb(),
                          compositor::MaskOccluder(image.rgb(), camera_, camera_from_marker, cover),
                          &composed);

@@ -177,8 +177,11 @@ class SceneRenderer {
   std::optional<SceneLight> light_;
   std::unique_ptr<compositor::Composer> composer_;
   ExposureMeter exposure_;
-  std::optional<CameraLookFilter> look_;  // Empty: drawn pixels stay sharp and clean.
-  FrameLens lens_;
+  /// How drawn pixels are made to look like the camera's.
+  struct {
+    std::optional<CameraLookFilter> look;  // Empty: they stay sharp and clean.
+    FrameLens lens;
+  } matched_;
   Edited edited_;
   LightSummary summary_;
   RenderTimes times_;

@@ -136,8 +136,6 @@ Result<RgbImage> ShowAll([[maybe_unused]] LiveSession& session, [[maybe_unused]]
   options.drawing.show_shadow_maps = arguments.shadow_debug;
   PLEINAIR_ASSIGN_OR_RETURN(options.drawing.antialiasing,
                             ParseAntialiasing(arguments.antialiasing));
-  session::DefocusOptions defocus;
-  PLEINAIR_RETURN_IF_ERROR(ParseDefocus(arguments.defocus, &defocus, &options.drawing));
   options.convergence = arguments.light.convergence;
   options.live_camera = source.camera;
   options.seconds = arguments.seconds;
@@ -201,8 +199,7 @@ Result<void> RunLive(const CLI::App& command, const LiveArguments& arguments) {
   options.composer.show_shadow_maps = arguments.shadow_debug;
   PLEINAIR_ASSIGN_OR_RETURN(options.composer.antialiasing,
                             ParseAntialiasing(arguments.antialiasing));
-  PLEINAIR_RETURN_IF_ERROR(
-      ParseDefocus(arguments.defocus, &options.light.defocus, &options.composer));
+  PLEINAIR_RETURN_IF_ERROR(ParseDefocus(arguments.defocus, &options.light.defocus));
   const scene::SceneDescription scene = options.scene;
   options.shown_elsewhere = !arguments.headless;
   options.lossless = arguments.lossless;

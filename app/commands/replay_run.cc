@@ -162,8 +162,7 @@ Result<void> Run(ReplayArguments& arguments) {
   }
   PLEINAIR_ASSIGN_OR_RETURN(options.composer.antialiasing,
                             ParseAntialiasing(arguments.drawing.antialiasing));
-  PLEINAIR_RETURN_IF_ERROR(
-      ParseDefocus(arguments.drawing.defocus, &options.light.defocus, &options.composer));
+  PLEINAIR_RETURN_IF_ERROR(ParseDefocus(arguments.drawing.defocus, &options.light.defocus));
   PLEINAIR_RETURN_IF_ERROR(SetRange(arguments, &options.range));
   // A single picture is no video.
   const bool is_still = arguments.range.frame.has_value();

@@ -88,7 +88,7 @@ Result<void> RunResponse(const ResponseArguments& arguments) {
                       "write one (docs/guide/reference/recordings.md) and give it with --scene");
   }
   scene::SceneDescription scene = *recording.scene;
-  scene.camera_response.clear();
+  scene.camera.response.clear();
   if (scene.objects.empty() || scene.phantoms.empty()) {
     return InputError(name, scene.objects.empty() ? "has no virtual object" : "has no phantom",
                       "add it to the scene: the curve is seen on phantoms, and lighting needs an "

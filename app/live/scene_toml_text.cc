@@ -130,8 +130,8 @@ std::string SceneToml(const scene::SceneDescription& scene, UtcTime start, const
     text += fmt::format("exposure_gain = [{}, {}, {}]\n", scene.exposure_scale->r,
                         scene.exposure_scale->g, scene.exposure_scale->b);
   }
-  if (!scene.camera_response.empty()) {
-    text += fmt::format("camera_response = {}\n", Beside(folder, scene.camera_response));
+  if (!scene.camera.response.empty()) {
+    text += fmt::format("camera_response = {}\n", Beside(folder, scene.camera.response));
   }
   if (scene.phantoms.empty()) text += "ground = false\n";
   text += fmt::format("\n[place]\nlatitude_deg = {}\nlongitude_deg = {}\nheight_m = {}\n",

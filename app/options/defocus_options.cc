@@ -47,8 +47,7 @@ void AddDefocusOptions(CLI::App& command, DefocusArguments& arguments) {
       ->type_name("METHOD");
 }
 
-Result<void> ParseDefocus(const DefocusArguments& arguments, session::DefocusOptions* defocus,
-                          compositor::ComposerOptions* composer) {
+Result<void> ParseDefocus(const DefocusArguments& arguments, session::DefocusOptions* defocus) {
   using session::DefocusMode;
   defocus->mode = arguments.mode == "off"      ? DefocusMode::kOff
                   : arguments.mode == "stated" ? DefocusMode::kStated
@@ -84,7 +83,7 @@ Result<void> ParseDefocus(const DefocusArguments& arguments, session::DefocusOpt
     return InputError("--defocus-method", "is unknown: " + arguments.method.substr(0, 64),
                       "write lens:1 to lens:1024");
   }
-  composer->lens_places = *places;
+  defocus->places = *places;
   return {};
 }
 

@@ -4,7 +4,6 @@
 #include <string>
 
 #include "base/error.h"
-#include "compositor/composer_options.h"
 #include "session/frame_lens.h"
 
 namespace CLI {
@@ -22,10 +21,9 @@ struct DefocusArguments {
 /// Adds the four options.
 void AddDefocusOptions(CLI::App& command, DefocusArguments& arguments);
 
-/// Reads them into the options of composer and session. Errors (input): focus or aperture not
+/// Reads them into the options of a session. Errors (input): focus or aperture not
 /// greater than zero, unknown methods, options that have no effect with --defocus off.
-Result<void> ParseDefocus(const DefocusArguments& arguments, session::DefocusOptions* defocus,
-                          compositor::ComposerOptions* composer);
+Result<void> ParseDefocus(const DefocusArguments& arguments, session::DefocusOptions* defocus);
 
 /// The options as on a command line, with a space before each; empty where none was given.
 std::string DefocusOptionText(const DefocusArguments& arguments);

@@ -43,7 +43,6 @@ void Describe(const devices::Recording& recording, const ReplayState& state, Rep
   report->scene.phantoms = scene.phantoms.size();
   report->film.frame_rate_hz = recording.frame_rate_hz;
   report->film.antialiasing = state.options.composer.antialiasing;
-  report->film.lens_places = state.options.composer.lens_places;
   report->film.samples = state.renderer().samples();
   report->film.curve = recording.curve;
   report->film.width = state.pipeline->output_camera().width;
@@ -140,7 +139,7 @@ std::vector<fs::path> InputsOf(const devices::Recording& recording, const Replay
     }
   }
   if (recording.sound) files.push_back(recording.sound->film);
-  const std::string& response = recording.scene->camera_response;
+  const std::string& response = recording.scene->camera.response;
   if (!response.empty()) files.emplace_back(response);
   for (const auto* models : {&recording.scene->phantoms, &recording.scene->objects}) {
     for (const scene::ModelReference& model : *models) {

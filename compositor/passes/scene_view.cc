@@ -4,6 +4,8 @@
 #include <glm/glm.hpp>
 #include <utility>
 
+#include "shadows/splits.h"
+
 namespace pleinair::compositor {
 namespace {
 
@@ -72,6 +74,16 @@ std::array<glm::vec3, 3> RaysThroughPixels(const RenderCamera& camera, const sha
 SceneProjection ProjectionOf(const RenderCamera& camera, const shadows::View& view, int spread_px) {
   return {camera.width, camera.height, spread_px, glm::mat4(view.ClipFromMarker()),
           static_cast<float>(view.near_m)};
+}
+
+FogSplits FogBefore(const shadows::Box& objects, const AerialFog& air, const shadows::View& view,
+                    const glm::dvec3& eye_m, const ComposerOptions& options) {
+  const glm::dvec3 to_objects = 0.5 * (objects.min + objects.max) - eye_m;
+  const double far_off = glm::length(to_objects);
+  return air.Along(far_off > 0.0 ? to_objects / far_off : glm::dvec3(0.0, 1.0, 0.0),
+                   shadows::PracticalSplits(view.near_m, view.far_m, options.shadow_partitions,
+                                            options.shadow_split_weight),
+                   options.fog);
 }
 
 }  // namespace pleinair::compositor

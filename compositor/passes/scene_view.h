@@ -4,6 +4,8 @@
 #include <glm/glm.hpp>
 
 #include "base/frames.h"
+#include "compositor/composer_options.h"
+#include "compositor/passes/aerial_fog.h"
 #include "compositor/passes/render_camera.h"
 #include "compositor/surfaces/image_tiles.h"
 #include "shadows/light_window.h"
@@ -26,5 +28,9 @@ std::array<glm::vec3, 3> RaysThroughPixels(const RenderCamera& camera, const sha
 /// The view's image for ImageTiles, with clip_from_position for marker coordinates. `spread_px`: as
 /// SceneProjection.
 SceneProjection ProjectionOf(const RenderCamera& camera, const shadows::View& view, int spread_px);
+
+/// The fog between the eye and a box with all objects. `options`: shadow partitions and fog.
+FogSplits FogBefore(const shadows::Box& objects, const AerialFog& air, const shadows::View& view,
+                    const glm::dvec3& eye_m, const ComposerOptions& options);
 
 }  // namespace pleinair::compositor

@@ -153,8 +153,8 @@ fs::path FramesOf(const RecordingManifest& manifest, const fs::path& folder) {
 
 /// A list of focus distances must have one a frame.
 Result<void> CheckFocusList(const Recording& recording) {
-  if (!recording.scene || !recording.scene->recorded_lens) return {};
-  const std::size_t focus = recording.scene->recorded_lens->focus_dioptres.size();
+  if (!recording.scene || !recording.scene->camera.recorded_lens) return {};
+  const std::size_t focus = recording.scene->camera.recorded_lens->focus_dioptres.size();
   const std::optional<std::int64_t> frames = recording.frames->FrameCount();
   if (focus < 2 || !frames || !recording.frames->CountsExactly() ||
       static_cast<std::int64_t>(focus) == *frames) {

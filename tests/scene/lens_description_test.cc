@@ -27,25 +27,27 @@ TEST(LensDescription, ReadsEveryKeyOfAScene) {
       "focus_m = 1.6\nf_number = 2.8\nfocal_length_mm = 33.6\nblades = 7\n"
       "blade_rotation_deg = -12.5\n");
   ASSERT_TRUE(read) << read.error().Message();
-  ASSERT_TRUE(read->lens);
-  EXPECT_TRUE(read->lens->IsComplete());
-  EXPECT_THAT(read->lens->focus_dioptres, ElementsAre(0.625));
-  EXPECT_NEAR(*read->lens->aperture_m, 0.012, 1e-12);
-  EXPECT_EQ(read->lens->blades, 7);
-  EXPECT_EQ(read->lens->blade_rotation_deg, -12.5);
-  EXPECT_NEAR(*Toml("aperture_mm = 12\n")->lens->aperture_m, 0.012, 1e-12);
-  EXPECT_FALSE(Toml("aperture_mm = 12\n")->lens->IsComplete());
-  EXPECT_THAT(Toml("focus_m = \"infinity\"\n")->lens->focus_dioptres, ElementsAre(0.0));
+  ASSERT_TRUE(read->camera.lens);
+  EXPECT_TRUE(read->camera.lens->IsComplete());
+  EXPECT_THAT(read->camera.lens->focus_dioptres, ElementsAre(0.625));
+  EXPECT_NEAR(*read->camera.lens->aperture_m, 0.012, 1e-12);
+  EXPECT_EQ(read->camera.lens->blades, 7);
+  EXPECT_EQ(read->camera.lens->blade_rotation_deg, -12.5);
+  EXPECT_NEAR(*Toml("aperture_mm = 12\n")->camera.lens->aperture_m, 0.012, 1e-12);
+  EXPECT_FALSE(Toml("aperture_mm = 12\n")->camera.lens->IsComplete());
+  EXPECT_THAT(Toml("focus_m = \"infinity\"\n")->camera.lens->focus_dioptres, ElementsAre(0.0));
 }
 
 TEST(LensDescription, ReadsMetadataWithOneFocusAFrame) {
-  EXPECT_THAT(Json("\"focus_m\": [1, 2.0, 4]")->recorded_lens->focus_dioptres,
+  EXPECT_THAT(Json("\"focus_m\": [1, 2.0, 4]")->camera.recorded_lens->focus_dioptres,
               ElementsAre(1.0, 0.5, 0.25));
-  EXPECT_THAT(Json("\"focus_dioptres\": [0, 2.5]")->recorded_lens->focus_dioptres,
+  EXPECT_THAT(Json("\"focus_dioptres\": [0, 2.5]")->camera.recorded_lens->focus_dioptres,
               ElementsAre(0.0, 2.5));
-  EXPECT_THAT(Json("\"focus_dioptres\": 2.5")->recorded_lens->focus_dioptres, ElementsAre(2.5));
-  EXPECT_THAT(Json("\"focus_m\": \"infinity\"")->recorded_lens->focus_dioptres, ElementsAre(0.0));
-  EXPECT_FALSE(Json("")->lens);
+  EXPECT_THAT(Json("\"focus_dioptres\": 2.5")->camera.recorded_lens->focus_dioptres,
+              ElementsAre(2.5));
+  EXPECT_THAT(Json("\"focus_m\": \"infinity\"")->camera.recorded_lens->focus_dioptres,
+              ElementsAre(0.0));
+  EXPECT_FALSE(Json("")->camera.lens);
 }
 
 TEST(LensDescription, RefusesImpossibleLensesByFile) {

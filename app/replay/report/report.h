@@ -41,7 +41,6 @@ struct ReplayedFilm {
   std::int64_t first_frame = 0;                          ///< Index in the recording.
   std::int64_t frames = 0;
   std::optional<std::int64_t> clock_start_ns;  ///< Its start by the camera's own clock.
-  int lens_places = 0;                         ///< ComposerOptions::lens_places.
   compositor::Antialiasing antialiasing;       ///< How the objects' edges are smoothed.
   std::optional<int> samples;  ///< That the renderer gives a pixel; nothing without objects.
 };

@@ -209,9 +209,9 @@ std::string Light(const ReplayReport& report) {
   html += MarkerCard(light);
   html += ExposureScaleCard(light);
   html += ResponseCard(light.response);
-  if (light.look) {
-    html += Card(fmt::format("{:.2f} px / {:.1f} ‰", light.look->blur_px,
-                             1000 * light.look->NoiseSigma(1, session::kMediumLight)),
+  if (light.camera.look) {
+    html += Card(fmt::format("{:.2f} px / {:.1f} ‰", light.camera.look->blur_px,
+                             1000 * light.camera.look->NoiseSigma(1, session::kMediumLight)),
                  "blur / noise at medium brightness, applied to virtual objects too");
   }
   return html;

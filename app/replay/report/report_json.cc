@@ -146,18 +146,17 @@ Json SamplesOf(const ReplayedFilm& film) {
 }
 
 /// The lens that the objects are seen through.
-Json LensJson(const session::LightSummary& light, const ReplayedFilm& film) {
-  const session::LensSummary& drawn = light.lens;
+Json LensJson(const session::CameraSummary& drawn) {
   const bool is_drawn = drawn.lens.has_value();
   const double focus = is_drawn ? drawn.lens->focus_dioptres : 0.0;
   return {
-      {"defocus", session::NameOf(drawn.source)},
-      {"method", is_drawn ? Json("lens:" + std::to_string(film.lens_places)) : Json()},
+      {"defocus", session::NameOf(drawn.defocus)},
+      {"method", is_drawn ? Json("lens:" + std::to_string(drawn.lens_places)) : Json()},
       {"focus_m", IfKnown(focus > 0.0, 1.0 / focus)},
       {"aperture_mm", IfKnown(is_drawn, is_drawn ? 1e3 * drawn.lens->aperture_m : 0.0)},
       {"focus_dioptres_error", Json()},
       {"aperture_relative_error", Json()},
-      {"in_focus_blur_px", IfKnown(is_drawn && light.look, light.look ? light.look->blur_px : 0.0)},
+      {"in_focus_blur_px", IfKnown(is_drawn && drawn.look, drawn.look ? drawn.look->blur_px : 0.0)},
       {"largest_blur_px", Rounded(drawn.largest_circle_px)},
       {"layers", Json()},
       {"peels", Json()}};
@@ -180,7 +179,7 @@ Json LightJson(const session::LightSummary& light) {
           {"gain_readings", light.exposures.estimates},
           {"marker_in_sun", IfKnown(may_be_lit, light.exposures.sunlit_share)},
           {"marker_dappled", IfKnown(light.exposures.estimates > 0, session::DappledShare(light))},
-          {"look", light.look ? LookJson(*light.look) : Json()},
+          {"look", light.camera.look ? LookJson(*light.camera.look) : Json()},
           {"camera_response", ResponseJson(light.response)},
           {"surface_colors", SurfaceColorsJson(light.surface_colors)},
           {"measured", MeasuredJson(light.measured)}};
@@ -329,7 +328,7 @@ std::string ReportJson(const ReplayReport& report) {
   json["phantoms"] = report.scene.phantoms;
   json["antialiasing"] = {{"method", compositor::NameOf(report.film.antialiasing.method)},
                           {"samples", SamplesOf(report.film)}};
-  json["lens"] = report.light ? LensJson(*report.light, report.film) : Json();
+  json["lens"] = report.light ? LensJson(report.light->camera) : Json();
   json["light"] = report.light ? LightJson(*report.light) : Json();
   if (report.light) json["light"]["changes"] = ChangesJson(report.light_changes);
   json["video_encoder"] =

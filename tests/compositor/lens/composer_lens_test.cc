@@ -31,20 +31,25 @@ struct Board {
   }
 };
 
+struct Drawing {
+  int places = 1;  // On the stop.
+  ComposerOptions options;
+};
+
 RgbImage ComposeThrough(const std::vector<Board>& boards, const RgbImage& picture,
                         const CameraModel& camera, const std::optional<ThinLens>& lens,
-                        const ComposerOptions& options, double* largest_px = nullptr) {
+                        const Drawing& drawn, double* largest_px = nullptr) {
   std::vector<PlacedModel> scene;
   for (const Board& board : boards) scene.push_back(board.Placed());
   const auto solver = LightSolver::Create(scene, {.rays_per_vertex = 64});
-  auto created = Composer::Create(camera, scene, options);
+  auto created = Composer::Create(camera, scene, drawn.options);
   if (!created) ADD_FAILURE() << created.error().Message();
   const std::unique_ptr<Composer> composer = *std::move(created);
   composer->AssumeUnmodelledShadows(false);
   const SouthernSun light(0.0);
   EXPECT_TRUE(composer->SetLight(solver.value()->Solve(light, Mat3{}), light, Mat3{},
                                  solver.value()->RadianceFromBelow(light, Mat3{})));
-  composer->SetLens(lens);
+  composer->SetLens(lens, drawn.places);
   auto image = composer->Compose(picture.view(), kFromAbove,
                                  {kExposureScale, kExposureScale, kExposureScale});
   if (!image) ADD_FAILURE() << image.error().Message();
@@ -84,11 +89,12 @@ RgbImage Even(const CameraModel& camera, std::uint8_t code) {
   return picture;
 }
 
-ComposerOptions Through(int places, int pixel_places = 0) {
-  ComposerOptions options;
-  options.lens_places = places;
-  if (pixel_places > 0) options.antialiasing = {AntialiasingMethod::kReference, pixel_places};
-  return options;
+Drawing Through(int places, int pixel_places = 0) {
+  Drawing drawing{places, {}};
+  if (pixel_places > 0) {
+    drawing.options.antialiasing = {AntialiasingMethod::kReference, pixel_places};
+  }
+  return drawing;
 }
 
 const CameraModel kSmall{.width = 128, .height = 96, .fx = 300, .fy = 300, .cx = 63.5, .cy = 47.5};

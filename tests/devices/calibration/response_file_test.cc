@@ -111,7 +111,7 @@ TEST_F(ResponseFile, IsNamedByTheSceneRelativeToIt) {
       "[marker]\nsize_mm = 100\nheading_deg = 0\n";
   const auto read = scene::ReadSceneDescription(folder_.Write("scene.toml", scene));
   ASSERT_TRUE(read) << read.error().Message();
-  EXPECT_TRUE(ReadCameraResponse(read->camera_response));
+  EXPECT_TRUE(ReadCameraResponse(read->camera.response));
   std::string missing = scene;
   missing.replace(missing.find("curve"), 5, "other");
   const auto refused = scene::ReadSceneDescription(folder_.Write("scene.toml", missing));

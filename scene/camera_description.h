@@ -1,0 +1,19 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "scene/lens_description.h"
+
+namespace pleinair::scene {
+
+/// What is known of the camera besides its calibration.
+struct CameraDescription {
+  /// File (devices/calibration/response_file.h), resolved against the folder of the file that names
+  /// it; empty: sRGB.
+  std::filesystem::path response;
+  std::optional<LensDescription> lens;           ///< As the user states it.
+  std::optional<LensDescription> recorded_lens;  ///< As the recording's metadata state it.
+};
+
+}  // namespace pleinair::scene
