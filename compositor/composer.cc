@@ -375,7 +375,6 @@ Result<RgbImage> GlComposer::Compose(CameraImageView image,
   const LensScene seen{canvas_,
                        surfaces_,
                        passes_.ratio,
-
                        options_.show_shadow_maps,
                        camera_.fx,
                        [&](const FrameUniforms& through, const AffectedTiles& drawn) {

@@ -13,7 +13,7 @@
 
 namespace pleinair::compositor {
 
-/// Depth of field of the virtual image (docs/method/depth-of-field.md). Takes memory on first use.
+/// Depth of field of the virtual image (docs/guide/lens.md). Takes memory on first use.
 /// Needs a current OpenGL context; move-only.
 class LensPass {
  public:
