@@ -44,6 +44,10 @@ Result<std::vector<NamedPicture>> ReadPictures(PictureStream& pictures, std::siz
   return read;
 }
 
+std::string ImageCount(int count) {
+  return fmt::format("{} {}", count, count == 1 ? "image" : "images");
+}
+
 /// Collects the views of all frames.
 Result<MarkerViewCollector> Collect(PictureStream& pictures, const std::string& source,
                                     const tracker::MarkerViewOptions& options, ImageSize* size,
@@ -52,7 +56,7 @@ Result<MarkerViewCollector> Collect(PictureStream& pictures, const std::string& 
   std::optional<MarkerViewCollector> collector;
   ProgressBar bar("Finding markers", pictures.Count(), "images");
   while (true) {
-    if (InterruptGuard::Interrupted()) return SystemError("", "interrupted", "");
+    PLEINAIR_RETURN_IF_ERROR(CheckInterrupt(source));
     PLEINAIR_ASSIGN_OR_RETURN(const std::vector<NamedPicture> read,
                               ReadPictures(pictures, at_once, size));
     if (read.empty()) break;
@@ -70,7 +74,7 @@ Result<MarkerViewCollector> Collect(PictureStream& pictures, const std::string& 
     for (std::size_t i = 0; i < read.size(); ++i) bar.Advance();
   }
   if (film->with_marker == 0) {
-    return InputError(source, fmt::format("shows no marker in {} images", film->looked_at),
+    return InputError(source, fmt::format("shows no marker in {}", ImageCount(film->looked_at)),
                       "name its family with --marker (sg, tag36h11, ...)");
   }
   return *std::move(collector);
@@ -110,6 +114,7 @@ Result<FilmLens> EstimateFilmLens(PictureStream& pictures, const std::string& so
   };
   ProgressBar bar("Measuring", std::nullopt, "rounds");
   for (int round = 0; round < kMaxRounds; ++round) {
+    PLEINAIR_RETURN_IF_ERROR(CheckInterrupt(source));
     auto lens =
         tracker::EstimateMarkerLens(collector.Measure(camera), size.width, size.height, camera.fx);
     if (!lens) return located(std::move(lens).error());
@@ -143,12 +148,12 @@ std::string FilmLensText(const FilmLens& film) {
   const CameraModel& camera = film.lens.camera;
   const tracker::MarkerLensDeviations& doubt = film.lens.deviations;
   return fmt::format(
-      "marker seen in {} of {} images of {}x{}\n{}\n"
+      "marker seen in {} of {} of {}x{}\n{}\n"
       "center {:.2f}, {:.2f} +- {:.2f}, {:.2f} px; k1 {:.5f} +- {:.5f}, k2 {:.5f} +- {:.5f}; "
       "chi2 {:.2f}\n",
-      film.with_marker, film.looked_at, camera.width, camera.height, FilmLensSentence(film),
-      camera.cx, camera.cy, doubt.cx_px, doubt.cy_px, camera.distortion[0], doubt.k1,
-      camera.distortion[1], doubt.k2, film.lens.chi2);
+      film.with_marker, ImageCount(film.looked_at), camera.width, camera.height,
+      FilmLensSentence(film), camera.cx, camera.cy, doubt.cx_px, doubt.cy_px, camera.distortion[0],
+      doubt.k1, camera.distortion[1], doubt.k2, film.lens.chi2);
 }
 
 nlohmann::ordered_json FilmLensJson(const FilmLens& film) {

@@ -116,6 +116,9 @@ std::string NewProjectJson(const NewProject& project, const std::string& folder)
                                     {"heading_deg", scene.heading.value.deg},
                                     {"heading_is_magnetic", scene.heading.value.is_magnetic},
                                     {"heading_from", scene.heading.from},
+                                    {"size_mm", scene.size_mm},
+                                    {"sky", scene.sky.value},
+                                    {"sky_from", scene.sky.from},
                                     {"lens_from", scene.lens_from},
                                     {"warnings", project.warnings}};
   return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
@@ -135,9 +138,15 @@ Result<void> RunNew(const NewArguments& arguments) {
   const ChosenMarker& marker = project.scene.marker;
   std::cout << fmt::format("marker {}, {:.0f} pixels large in frame {}\n", marker.name.ToString(),
                            marker.best_edge_px, project.first_picture_frame)
+            << fmt::format("size: {:g} mm (as you stated)\n", project.scene.size_mm)
+            << fmt::format("heading: {:g} degrees from {} north ({})\n",
+                           project.scene.heading.value.deg,
+                           project.scene.heading.value.is_magnetic ? "magnetic" : "true",
+                           project.scene.heading.from)
             << fmt::format("time: {} ({})\n", project.scene.time.value, project.scene.time.from)
             << fmt::format("place: {:.4f}, {:.4f} ({})\n", project.scene.place.value.latitude_deg,
                            project.scene.place.value.longitude_deg, project.scene.place.from)
+            << fmt::format("sky: {} ({})\n", project.scene.sky.value, project.scene.sky.from)
             << fmt::format("lens: {}\n", project.scene.lens_from)
             << fmt::format(
                    "{0}: scene.toml recording.json first.png\n"

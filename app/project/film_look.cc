@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "app/calibrate/film_lens.h"
+#include "app/terminal/interrupt.h"
 #include "devices/calibration/fitted_camera.h"
 #include "devices/images/image_file.h"
 #include "devices/recordings/image_sequence.h"
@@ -123,6 +124,11 @@ KnownLens AssumedLens(ImageSize size, const devices::FilmTags& tags, const std::
   return lens;
 }
 
+Result<FilmLook> ReadTags(const fs::path& file) {
+  PLEINAIR_ASSIGN_OR_RETURN(LookedAtFile opened, OpenLookedAtFile(file));
+  return FilmLook{file, opened.is_photo, std::move(opened.tags), {}, 0, {}};
+}
+
 std::vector<std::string> FamiliesToLookFor(const std::optional<std::string>& wanted) {
   if (wanted) return {*wanted};
   return {session::kSgFamily, "tag36h11"};
@@ -142,6 +148,7 @@ Result<FilmLook> LookAt(const fs::path& file, const LookOptions& options) {
   const std::vector<std::size_t> indices = session::EvenlySpread(
       static_cast<std::size_t>(look.frames), CountOfLooks(opened.size, options.is_marker_rare));
   for (std::size_t first = 0; first < indices.size(); first += kLooksAtOnce) {
+    PLEINAIR_RETURN_IF_ERROR(CheckInterrupt(file.string()));
     const std::size_t count = std::min(kLooksAtOnce, indices.size() - first);
     PLEINAIR_ASSIGN_OR_RETURN(const std::vector<devices::Frame> frames,
                               ReadFrames(*opened.frames, std::span(indices).subspan(first, count)));
@@ -191,6 +198,7 @@ std::optional<ChosenMarker> ChooseMarker(const FilmLook& look,
   }
   if (best == seen.end()) return std::nullopt;
   ChosenMarker chosen = best->second;
+  chosen.looked_at = look.looked_at.size();
   for (const auto& [name, other] : seen) {
     if (name != chosen.name) chosen.others.push_back(name);
   }

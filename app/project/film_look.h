@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -56,9 +57,14 @@ struct LookOptions {
   bool is_marker_rare = false;
 };
 
+/// Opens a film or a photograph and reads its tags, without a search for markers. Errors: those of
+/// OpenVideo() and InspectImage().
+Result<FilmLook> ReadTags(const std::filesystem::path& file);
+
 /// Detects markers in at most 12 frames of a film, or in a photograph. Large frames are
 /// fewer: together they have some 25 million pixels. Errors: those of OpenVideo() and
-/// DecodeImageFile(); those of FitCamera(); an unknown family of markers.
+/// DecodeImageFile(); those of FitCamera(); an unknown family of markers. Error (system):
+/// interrupted.
 Result<FilmLook> LookAt(const std::filesystem::path& file, const LookOptions& options);
 
 /// The marker of a scene, as the frames show it.
@@ -68,6 +74,8 @@ struct ChosenMarker {
   std::int64_t best_frame = 0;  ///< Where it is largest and least covered.
   double best_edge_px = 0.0;    ///< Mean edge there, in pixels.
   std::vector<session::MarkerName> others;
+  bool is_stated = false;     ///< The user named it.
+  std::size_t looked_at = 0;  ///< Frames in which markers were searched for.
 };
 
 /// Chooses the marker that most of the frames show, or `wanted`. Nothing: no frame shows it.

@@ -72,7 +72,7 @@ Result<std::optional<KnownLens>> LensOf(const NewProjectRequest& request, const 
   }
   if (request.calibration) {
     PLEINAIR_ASSIGN_OR_RETURN(CameraModel camera, devices::ReadCalibration(*request.calibration));
-    return KnownLens{camera, request.calibration->filename().string()};
+    return KnownLens{camera, request.calibration->string()};
   }
   if (by_trajectory) {
     return KnownLens{
@@ -83,8 +83,19 @@ Result<std::optional<KnownLens>> LensOf(const NewProjectRequest& request, const 
                                                            : std::nullopt));
 }
 
-Result<Footage> LookAtAll(const NewProjectRequest& request) {
-  PLEINAIR_ASSIGN_OR_RETURN(const std::vector<fs::path> files, InOrder(request.files));
+/// Reports what nobody has stated before the search for markers, which takes seconds. On a terminal
+/// it is asked for after the search.
+Result<void> CheckBeforeSearch(const std::vector<fs::path>& files, const StatedScene& stated) {
+  std::vector<FilmLook> sources;
+  sources.reserve(files.size());
+  for (const fs::path& file : files) {
+    PLEINAIR_ASSIGN_OR_RETURN(FilmLook tags, ReadTags(file));
+    sources.push_back(std::move(tags));
+  }
+  return CheckNothingIsMissing(sources, stated);
+}
+
+Result<Footage> LookAtAll(const NewProjectRequest& request, const std::vector<fs::path>& files) {
   LookOptions options;
   if (request.marker) options.family = request.marker->family;
   options.is_marker_rare = request.trajectory.has_value();
@@ -101,6 +112,7 @@ Result<Footage> LookAtAll(const NewProjectRequest& request) {
         "(docs/guide/troubleshoot.md)");
   }
   footage.marker = *marker;
+  footage.marker.is_stated = request.marker.has_value();
   // A photograph has another lens than a film.
   options.lens.reset();
   for (std::size_t i = 1; i < files.size(); ++i) {
@@ -126,7 +138,17 @@ Result<NewProject> MakeProject(const NewProjectRequest& request, Questions* ques
   if (request.stated.model && !fs::is_regular_file(*request.stated.model, error)) {
     return InputError(request.stated.model->string(), "is no file", "check the name of the model");
   }
-  PLEINAIR_ASSIGN_OR_RETURN(const Footage footage, LookAtAll(request));
+  std::optional<InterruptGuard> guard(std::in_place);
+  std::optional<InterruptDeadline> deadline(std::in_place, request.folder.string(), [] {});
+  PLEINAIR_ASSIGN_OR_RETURN(const std::vector<fs::path> sources, InOrder(request.files));
+  if (questions == nullptr) {
+    PLEINAIR_RETURN_IF_ERROR(CheckBeforeSearch(sources, request.stated));
+  }
+  PLEINAIR_ASSIGN_OR_RETURN(const Footage footage, LookAtAll(request, sources));
+  PLEINAIR_RETURN_IF_ERROR(CheckInterrupt(request.folder.string()));
+  deadline.reset();
+  // Ctrl-C ends the program while it waits for an answer.
+  if (questions != nullptr) guard.reset();
   PLEINAIR_ASSIGN_OR_RETURN(NewScene scene, CollectScene(footage, request.stated, questions));
   ProjectFiles files;
   PLEINAIR_ASSIGN_OR_RETURN(files.scene_toml, NewSceneToml(scene, request.folder));
@@ -139,8 +161,8 @@ Result<NewProject> MakeProject(const NewProjectRequest& request, Questions* ques
                             NewRecordingJson(footage.film.file, footage.film.lens, request.folder));
   PLEINAIR_ASSIGN_OR_RETURN(const scene::SceneDescription description,
                             Understand(files.scene_toml, request.folder));
-  const InterruptGuard guard;
-  std::optional<InterruptDeadline> deadline(std::in_place, request.folder.string(), [] {});
+  if (!guard) guard.emplace();
+  deadline.emplace(request.folder.string(), [] {});
   PLEINAIR_ASSIGN_OR_RETURN(
       FirstPicture picture,
       ComposeFirstPicture(footage.film, footage.marker.best_frame, description));

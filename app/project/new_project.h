@@ -35,8 +35,8 @@ struct NewProject {
 
 /// Makes a project: collects the scene from the files, composes the first picture and writes the
 /// folder. `questions`: null where nobody can be asked. Errors: an unreadable file or model, no
-/// marker in view, a value without a source, a folder that cannot be written. Error
-/// (system): no OpenGL 4.5. After an error nothing was written.
+/// marker in view, a value without a source, a folder that cannot be written. Errors
+/// (system): no OpenGL 4.5; interrupted. After an error nothing was written.
 Result<NewProject> MakeProject(const NewProjectRequest& request, Questions* questions);
 
 }  // namespace pleinair::app

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <string_view>
@@ -159,10 +160,10 @@ Result<bool> ParseUpright(const std::string& text) {
 
 /// How the marker is mounted; asked only on a terminal.
 Result<void> CollectMounting(const StatedScene& stated, Questions* questions, NewScene* scene) {
-  scene->upright = stated.upright;
+  scene->upright.value = stated.upright;
   scene->marker_height_m = stated.marker_height_m;
-  if (questions == nullptr) return {};
-  if (!stated.upright && !stated.marker_height_m) {
+  scene->upright.from = stated.upright ? kAsStated : "assumed: it lies flat";
+  if (questions != nullptr && !stated.upright && !stated.marker_height_m) {
     PLEINAIR_ASSIGN_OR_RETURN(
         const std::string answer,
         questions->Ask("Does the marker lie on the ground, or hang on a wall?", "ground",
@@ -170,7 +171,8 @@ Result<void> CollectMounting(const StatedScene& stated, Questions* questions, Ne
                          PLEINAIR_RETURN_IF_ERROR(ParseUpright(given));
                          return {};
                        }));
-    PLEINAIR_ASSIGN_OR_RETURN(scene->upright, ParseUpright(answer));
+    PLEINAIR_ASSIGN_OR_RETURN(scene->upright.value, ParseUpright(answer));
+    scene->upright.from = kAsStated;
   }
   return {};
 }
@@ -225,6 +227,31 @@ Result<StatedHeading> ParseHeading(const std::string& text) {
                     "write degrees clockwise from true north, 342, or as a compass shows it, 337m");
 }
 
+Result<void> CheckNothingIsMissing(const std::vector<FilmLook>& sources,
+                                   const StatedScene& stated) {
+  const auto offer = [&](const auto& is_tagged) -> std::string {
+    return std::any_of(sources.begin(), sources.end(), is_tagged) ? "offered" : "";
+  };
+  Collector collector(stated, nullptr);
+  const auto want = [&](bool is_stated, const char* name, const char* option,
+                        const std::string& offered) -> Result<void> {
+    if (is_stated) return {};
+    PLEINAIR_RETURN_IF_ERROR(collector.Answer({name, option, "", offered}, {}));
+    return {};
+  };
+  PLEINAIR_RETURN_IF_ERROR(want(stated.size_mm.has_value(), "the marker's size", "--size-mm", ""));
+  PLEINAIR_RETURN_IF_ERROR(
+      want(stated.heading.has_value(), "the heading", "--heading",
+           offer([](const FilmLook& look) { return look.tags.view_heading_deg.has_value(); })));
+  PLEINAIR_RETURN_IF_ERROR(
+      want(stated.time.has_value(), "the time", "--time",
+           offer([](const FilmLook& look) { return !look.tags.time.empty(); })));
+  PLEINAIR_RETURN_IF_ERROR(
+      want(stated.place.has_value(), "the place", "--at",
+           offer([](const FilmLook& look) { return look.tags.place.has_value(); })));
+  return collector.CheckNothingIsMissing(sources.front().file.string());
+}
+
 Result<NewScene> CollectScene(const Footage& footage, const StatedScene& stated,
                               Questions* questions) {
   NewScene scene;
@@ -249,15 +276,16 @@ Result<NewScene> CollectScene(const Footage& footage, const StatedScene& stated,
           [](double size_mm) { return fmt::format("{:g}", size_mm); }, ParseSize));
   scene.size_mm = size.value;
   const char* heading_question =
-      scene.upright ? "Direction in which you look when you read the marker, degrees clockwise "
-                      "from true north (as a compass shows it: 337m)"
-                    : "Direction of the marker's top edge, degrees clockwise from true north (as a "
-                      "compass shows it: 337m)";
+      scene.upright.value
+          ? "Direction in which you look when you read the marker, degrees clockwise "
+            "from true north (as a compass shows it: 337m)"
+          : "Direction of the marker's top edge, degrees clockwise from true north (as a "
+            "compass shows it: 337m)";
   PLEINAIR_ASSIGN_OR_RETURN(
-      scene.heading,
-      Collect<StatedHeading>(collector, stated.heading, OfferedHeading(footage, scene.upright),
-                             {"the heading", "--heading", heading_question, ""}, HeadingText,
-                             ParseHeading));
+      scene.heading, Collect<StatedHeading>(collector, stated.heading,
+                                            OfferedHeading(footage, scene.upright.value),
+                                            {"the heading", "--heading", heading_question, ""},
+                                            HeadingText, ParseHeading));
   PLEINAIR_ASSIGN_OR_RETURN(
       scene.time, Collect<std::string>(
                       collector, stated.time, OfferedTime(footage),
@@ -280,6 +308,7 @@ Result<NewScene> CollectScene(const Footage& footage, const StatedScene& stated,
         scene.sky, Collect<std::string>(
                        collector, stated.sky, scene.sky, {"the sky", "--sky", "The sky", ""},
                        [](const std::string& words) { return words; }, ParseSky));
+    scene.sky.from = kAsStated;
   }
   PLEINAIR_RETURN_IF_ERROR(ParseSky(scene.sky.value));
   return scene;

@@ -46,7 +46,7 @@ struct NewScene {
   Sourced<StatedHeading> heading;
   ChosenMarker marker;
   double size_mm = 0.0;
-  bool upright = false;
+  Sourced<bool> upright;
   std::optional<double> marker_height_m;
   Sourced<std::string> sky;
   std::string lens_from;
@@ -68,6 +68,11 @@ struct Footage {
 /// cannot be true.
 Result<NewScene> CollectScene(const Footage& footage, const StatedScene& stated,
                               Questions* questions);
+
+/// Checks that every value is stated or offered by tags, where nobody can be asked. `sources`: the
+/// film and photographs, before the search for markers. A direction in the tags counts as an
+/// offered heading, although the search may not find the marker. Error (input): as CollectScene().
+Result<void> CheckNothingIsMissing(const std::vector<FilmLook>& sources, const StatedScene& stated);
 
 /// Parses "LAT,LON" or "LAT,LON,HEIGHT" in degrees and metres. Error (input): other text, or a
 /// place beyond the poles or the date line.

@@ -114,6 +114,11 @@ Result<void> CheckProjectFolder(const fs::path& folder, bool replaces) {
   while (!fs::exists(existing, error) && existing.has_relative_path()) {
     existing = existing.parent_path();
   }
+  if (!fs::is_directory(existing, error)) {
+    return InputError(existing.string(),
+                      "is a file, and " + folder.string() + " needs a folder there",
+                      "name another folder with -o");
+  }
   if (access(existing.c_str(), W_OK | X_OK) != 0) {
     return tl::make_unexpected(WriteError(folder, errno));
   }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
@@ -47,6 +48,12 @@ std::string Line(const std::string& assignment, const std::string& from) {
   return fmt::format("{:<33} # {}\n", assignment, Comment(from));
 }
 
+bool IsObj(const fs::path& model) {
+  std::string ending = model.extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return ending == ".obj";
+}
+
 std::string MarkerText(const NewScene& scene) {
   const ChosenMarker& marker = scene.marker;
   std::string text = "\n";
@@ -55,29 +62,37 @@ std::string MarkerText(const NewScene& scene) {
   for (const session::MarkerName& other : marker.others) {
     text += Comment("# Also in view: " + other.ToString()) + "\n";
   }
-  text += fmt::format("family = \"{}\"\nid = {}\n", marker.name.family, marker.name.id);
+  const std::string named =
+      marker.is_stated ? "as you stated"
+                       : fmt::format("seen in {} of {} {} of {}", marker.frames, marker.looked_at,
+                                     marker.looked_at == 1 ? "frame" : "frames", scene.film);
+  text += Line(fmt::format("family = \"{}\"", marker.name.family), named);
+  text += Line(fmt::format("id = {}", marker.name.id), named);
   text += Line(fmt::format("size_mm = {:g}", scene.size_mm),
                "outer edge of the black square, as you stated");
-  text += fmt::format("upright = {}\n", scene.upright);
+  text += Line(fmt::format("upright = {}", scene.upright.value),
+               scene.upright.from + "; true: it hangs on a wall");
   const StatedHeading& heading = scene.heading.value;
   text +=
       Line(fmt::format("{} = {:.7g}", heading.is_magnetic ? "heading_magnetic_deg" : "heading_deg",
                        heading.deg),
            scene.heading.from);
-  text += scene.upright ? "# The heading is the direction in which you look when you read it, "
-                        : "# The heading is the direction of the top edge, ";
+  text += scene.upright.value
+              ? "# The heading is the direction in which you look when you read it, "
+              : "# The heading is the direction of the top edge, ";
   return text + (heading.is_magnetic ? "as a compass shows it.\n" : "clockwise from true north.\n");
 }
 
 std::string GroundText(const NewScene& scene) {
-  if (scene.upright && !scene.marker_height_m) {
+  if (scene.upright.value && !scene.marker_height_m) {
     return "\n# No ground: write the height of the marker's centre above it, in metres.\n"
            "# [ground]\n# height_m = 1.5\n";
   }
   std::string text = "\n";
   text += Line("[ground]", "assumed: level");
   if (scene.marker_height_m) {
-    text += fmt::format("height_m = {:g}\n", *scene.marker_height_m);
+    text += Line(fmt::format("height_m = {:g}", *scene.marker_height_m),
+                 "of the marker's centre above it, as you stated");
   }
   return text;
 }
@@ -96,8 +111,10 @@ Result<std::string> NewSceneToml(const NewScene& scene, const fs::path& folder) 
   const devices::FilmTags::Place& place = scene.place.value;
   text += "\n[place]\n";
   text += Line(fmt::format("latitude_deg = {:.6f}", place.latitude_deg), scene.place.from);
-  text += fmt::format("longitude_deg = {:.6f}\n", place.longitude_deg);
-  if (place.height_m) text += fmt::format("height_m = {:.0f}\n", *place.height_m);
+  text += Line(fmt::format("longitude_deg = {:.6f}", place.longitude_deg), scene.place.from);
+  text += place.height_m ? Line(fmt::format("height_m = {:.0f}", *place.height_m),
+                                "above sea level; " + scene.place.from)
+                         : Line("# height_m = 0", "above sea level; nobody stated it");
   text += MarkerText(scene);
   text += GroundText(scene);
   text +=
@@ -117,6 +134,11 @@ Result<std::string> NewSceneToml(const NewScene& scene, const fs::path& folder) 
   text += Line("origin = \"bottom centre\"", "its lowest point stands at translation_m");
   text += Line("translation_m = [0, 0, 0]", "from the marker: right, up and out of it, metres");
   text += Line("rotation_deg = [0, 0, 0]", "the last one turns it on the ground");
+  if (IsObj(*scene.model)) {
+    // An OBJ states neither, and many programs write y up.
+    text += Line("# up = \"y\"", "remove the first # if it lies on its side or its back");
+  }
+  text += Line("# unit = \"mm\"", "remove the first # if it is huge: mm, cm, m, in or ft");
   return text;
 }
 

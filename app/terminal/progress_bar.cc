@@ -48,13 +48,16 @@ void ProgressBar::Draw(double elapsed_s) const {
 std::string ProgressBar::Line(const std::string& label, std::int64_t done,
                               std::optional<std::int64_t> total, double elapsed_s,
                               const std::string& unit) {
-  if (!total || *total <= 0) return label + " " + std::to_string(done) + " " + unit;
+  // A unit in the plural, such as "frames".
+  const auto counted = [&](std::int64_t count) {
+    return std::to_string(count) + " " + (count == 1 ? unit.substr(0, unit.size() - 1) : unit);
+  };
+  if (!total || *total <= 0) return done == 0 ? label : label + " " + counted(done);
   const double share = std::min(1.0, static_cast<double>(done) / static_cast<double>(*total));
   const int filled = static_cast<int>(share * kBarWidth);
   std::string line = label + " [" + std::string(filled, '#') +
                      std::string(kBarWidth - filled, '.') + "] " +
-                     std::to_string(static_cast<int>(share * 100)) + " % of " +
-                     std::to_string(*total) + " " + unit;
+                     std::to_string(static_cast<int>(share * 100)) + " % of " + counted(*total);
   if (share > 0.0 && share < 1.0) {
     line += ", " + std::to_string(std::lround(elapsed_s / share * (1.0 - share))) + " s to go";
   }

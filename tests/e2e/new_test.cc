@@ -52,12 +52,15 @@ TEST(New, MakesAProjectFromAPhonesFilmThatReplayTakes) {
   arguments.insert(arguments.end(), {"--model", folder / "cube.obj"});
   const RunResult made = RunPleinair(arguments);
   ASSERT_EQ(made.exit_code, 0) << made.err;
-  EXPECT_THAT(made.out, AllOf(HasSubstr("marker sg_17"), HasSubstr("from the tags of walk.mov")));
+  EXPECT_THAT(made.out,
+              AllOf(HasSubstr("marker sg_17"), HasSubstr("from the tags of walk.mov"),
+                    HasSubstr("size: 500 mm"), HasSubstr("heading: 342 degrees from true"),
+                    HasSubstr("sky: clear (assumed")));
   EXPECT_THAT(Listing(folder / "shoot"),
               ElementsAre("site", "site/first.png", "site/recording.json", "site/scene.toml"));
-  EXPECT_THAT(
-      ReadFile(folder / "shoot/site/scene.toml"),
-      AllOf(HasSubstr("time = \"2025-09-14T13:05:00+02:00\""), HasSubstr("../../cube.obj")));
+  EXPECT_THAT(ReadFile(folder / "shoot/site/scene.toml"),
+              AllOf(HasSubstr("time = \"2025-09-14T13:05:00+02:00\""), HasSubstr("../../cube.obj"),
+                    HasSubstr("# up = \"y\""), HasSubstr("# unit = \"mm\"")));
   const cv::Mat first = cv::imread((folder / "shoot/site/first.png").string());
   ASSERT_EQ(first.size(), cv::Size(640, 480));
   int red = 0;
@@ -160,6 +163,21 @@ TEST(New, APhotographAloneIsAProject) {
   EXPECT_TRUE(fs::exists(folder / "out/frames/0000.png"));
 }
 
+TEST(New, InterruptedDuringTheSearchItSaysSoAndWritesNothing) {
+  const TemporaryFolder folder;
+  WritePhoneFilm(folder / "walk.mov");
+  const std::string out = folder / "site";
+  // After it has opened the film, or after a timeout.
+  const RunResult run = RunCommandLine(
+      {"sh", "-c",
+       PleinairProgram() + " new '" + std::string(folder / "walk.mov") + "' -o '" + out +
+           "' --yes --size-mm 500 --heading 342 & n=0; "
+           "until ls -l /proc/$!/fd 2>/dev/null | grep -q walk.mov || [ $((n += 1)) -gt 5000 ]; "
+           "do :; done; kill -INT $!; wait $!"});
+  ExpectRefused(run, "interrupted", 1);
+  EXPECT_FALSE(fs::exists(out));
+}
+
 TEST(New, RefusesWhatItCannotMakeAndWritesNothing) {
   const TemporaryFolder folder;
   const fs::path film = folder / "walk.mov";
@@ -182,14 +200,17 @@ TEST(New, RefusesWhatItCannotMakeAndWritesNothing) {
     EXPECT_EQ(Listing(folder.path()), before);
   };
   refuse({"new", film, "-o", out}, {}, "--size-mm, --heading, --time, --at");
+  // What is missing is said before the search for a marker.
+  refuse({"new", folder / "grey.mov", "-o", out, "--yes"}, {}, "--size-mm, --heading");
   refuse({"new", film, "-o", out, "--yes"}, {}, "--size-mm, --heading");
-  refuse(Stated(folder / "grey.mov", out), {}, "shows no marker");
+  refuse(Stated(folder / "grey.mov", out),
+         {"--time", "2025-09-14T13:05:00+02:00", "--at", "50.0875,14.4213"}, "shows no marker");
   refuse(Stated(film, out), {folder / "still.HEIC"}, "is a photograph, but no JPEG");
   refuse(Stated(film, out), {"--marker", "sg_3"}, "shows no marker sg_3");
   refuse(Stated(film, out), {"--model", folder / "none.glb"}, "none.glb");
   refuse(Stated(film, out), {"--model", folder / "words.txt"}, "words.txt");
   refuse(Stated(film, out), {"--time", "2025-09-14T13:05:00"}, "offset");
-  refuse(Stated(film, folder / "words.txt/site"), {}, "words.txt");
+  refuse(Stated(film, folder / "words.txt/site"), {}, "words.txt: is a file");
   refuse(Stated(film, folder / "other"), {"--force"}, "did not write it");
   refuse(Stated(film, out), {folder / "grey.mov"}, "is a second film");
   refuse(Stated(folder / "words.txt", out), {}, "words.txt");

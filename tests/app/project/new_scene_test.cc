@@ -113,7 +113,7 @@ TEST(NewScene, AnswersAndAcceptedOffersMakeAScene) {
   Questions questions(answers, text);
   const auto scene = CollectScene(TaggedFilm(), {}, &questions);
   ASSERT_TRUE(scene) << scene.error().Message();
-  EXPECT_TRUE(scene->upright);
+  EXPECT_TRUE(scene->upright.value);
   EXPECT_EQ(scene->size_mm, 200.0);
   EXPECT_TRUE(scene->heading.value.is_magnetic);
   EXPECT_EQ(scene->heading.value.deg, 337.0);
@@ -122,6 +122,7 @@ TEST(NewScene, AnswersAndAcceptedOffersMakeAScene) {
   EXPECT_EQ(scene->place.value.latitude_deg, 48.1);
   EXPECT_EQ(scene->place.from, "as you stated");
   EXPECT_EQ(scene->sky.value, "cloudy");
+  EXPECT_EQ(scene->sky.from, "as you stated");
   EXPECT_THAT(text.str(), HasSubstr("\"20 cm\" is no size of a marker"));
   const auto toml = NewSceneToml(*scene, "site");
   ASSERT_TRUE(toml);

@@ -24,6 +24,8 @@ TEST(ProgressBar, ShowsShareAndTimeToGo) {
   EXPECT_EQ(ProgressBar::Line("Composing", 30, 90, 10.0),
             "Composing [##########....................] 33 % of 90 frames, 20 s to go");
   EXPECT_EQ(ProgressBar::Line("Composing", 7, std::nullopt, 1.0), "Composing 7 frames");
+  EXPECT_EQ(ProgressBar::Line("Measuring", 0, std::nullopt, 0.0, "rounds"), "Measuring");
+  EXPECT_EQ(ProgressBar::Line("Measuring", 1, std::nullopt, 0.0, "rounds"), "Measuring 1 round");
 }
 
 }  // namespace
