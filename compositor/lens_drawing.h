@@ -21,7 +21,7 @@ struct LensScene {
   const SceneSurfaces& surfaces;  ///< Classified.
   const ShadowRatioPass& ratio;
   bool includes_all = false;  ///< Draws all tiles of the image.
-  double camera_fx = 0.0;     ///< Of the camera image, pixels.
+  double camera_fx = 0.0;     ///< Focal length of the camera image, pixels.
   /// Draws the scene as a frame shows it into the tiles.
   std::function<void(const FrameUniforms&, const AffectedTiles&)> draw;
 };

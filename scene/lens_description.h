@@ -13,8 +13,8 @@ struct LensDescription {
   /// Reciprocal distances in focus, 1/m, 0 for infinity: none, one, or one a frame.
   std::vector<double> focus_dioptres;
   std::optional<double> aperture_m;  ///< Diameter of the entrance pupil.
-  int blades = 0;                    ///< Of the stop; 0: round.
-  double blade_rotation_deg = 0.0;   ///< Of one corner, from the image's right, clockwise.
+  int blades = 0;                    ///< Blades of the stop; 0: round.
+  double blade_rotation_deg = 0.0;   ///< One corner's angle from the image's right, clockwise.
 
   /// True if images can be drawn by it.
   bool IsComplete() const { return !focus_dioptres.empty() && aperture_m.has_value(); }
@@ -30,8 +30,8 @@ struct LensFacts {
 };
 
 /// Checks the keys and completes the description. `where`: file, and line where there is one.
-/// Errors (input): values not greater than zero, keys that exclude or need one another, a stop of
-/// one, two or more than 16 blades, a focus nearer than the focal length.
+/// Errors (input): values not greater than zero; keys that exclude or need one another; one, two or
+/// more than 16 blades; a focus nearer than the focal length.
 Result<LensDescription> CompleteLens(const LensFacts& facts, const std::string& where);
 
 }  // namespace pleinair::scene

@@ -7,16 +7,17 @@
 #include <cmath>
 #include <string_view>
 
+#include "files/csv.h"
+
 namespace pleinair::app {
 namespace {
 
 constexpr int kMaxPlaces = 1024;
 constexpr std::string_view kLens = "lens:";
 
-/// A number that fills the whole text.
-template <typename T>
-std::optional<T> NumberIn(std::string_view text) {
-  T value{};
+/// A whole number that fills the text.
+std::optional<int> IntegerIn(std::string_view text) {
+  int value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
   return value;
@@ -58,7 +59,7 @@ Result<void> ParseDefocus(const DefocusArguments& arguments, session::DefocusOpt
   const bool is_off = defocus->mode == DefocusMode::kOff;
   if (!arguments.focus.empty()) {
     if (is_off) return has_no_effect("--focus");
-    const std::optional<double> focus_m = NumberIn<double>(arguments.focus);
+    const std::optional<double> focus_m = files::ParseNumber(arguments.focus);
     const bool is_infinite = arguments.focus == "infinity";
     if (!is_infinite && !(focus_m && *focus_m > 0.0 && std::isfinite(*focus_m))) {
       return InputError("--focus", "is not greater than zero: " + arguments.focus.substr(0, 64),
@@ -78,7 +79,7 @@ Result<void> ParseDefocus(const DefocusArguments& arguments, session::DefocusOpt
   if (is_off) return has_no_effect("--defocus-method");
   const std::string_view method = arguments.method;
   const std::optional<int> places =
-      method.starts_with(kLens) ? NumberIn<int>(method.substr(kLens.size())) : std::nullopt;
+      method.starts_with(kLens) ? IntegerIn(method.substr(kLens.size())) : std::nullopt;
   if (!places || *places < 1 || *places > kMaxPlaces) {
     return InputError("--defocus-method", "is unknown: " + arguments.method.substr(0, 64),
                       "write lens:1 to lens:1024");

@@ -8,9 +8,9 @@
 
 namespace pleinair::compositor {
 
-/// The frame as seen through one place of the stop: the camera moves there, and its image is
-/// sheared so that the plane in focus stays where it is. The mean over the stop is the image of a
-/// thin lens. `place`: by StopPlaces(), times the aperture's radius. `view`: that of the frame.
+/// The frame as seen through one place of the stop. The camera moves there, and its image is
+/// sheared so that the plane in focus stays. The mean over the stop is the image of a thin lens.
+/// `place`: by StopPlaces(), times the aperture's radius. `view`: that of the frame.
 FrameUniforms SeenThroughPlace(const FrameUniforms& frame, const shadows::View& view,
                                const ThinLens& lens, Vec2 place_m);
 

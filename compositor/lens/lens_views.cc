@@ -78,28 +78,37 @@ LensViews::Range LensViews::AffectedDioptres(const RenderTargets& targets,
   return all;
 }
 
-void LensViews::Draw(const RenderTargets& targets, const LensFrame& lens_frame,
-                     std::span<const PixelRect> within, const DrawFrame& draw) const {
-  sums_.pictures.Bind();
-  for (const int sum : {0, 1, 2}) sums_.pictures.ClearColor(sum, 0, 0, 0, 0);
+void LensViews::AddPlaces(const RenderTargets& targets, const LensFrame& lens_frame,
+                          std::span<const PixelRect> within, const DrawFrame& draw,
+                          const gl::GlFramebuffer& sums, const gl::GlProgram& program,
+                          const BindInputs& bind) const {
   const float weight = 1.0F / static_cast<float>(lens_frame.places);
   for (const Vec2 place : StopPlaces(lens_frame.lens.stop, lens_frame.places)) {
     draw(SeenThroughPlace(lens_frame.frame, lens_frame.view, lens_frame.lens,
                           place * (lens_frame.lens.aperture_m / 2)));
-    sums_.pictures.Bind();
+    sums.Bind();
     glEnable(GL_BLEND);
     glBlendFunc(GL_ONE, GL_ONE);
     no_attributes_.Bind();
     targets.depth().Bind(0);
-    targets.ratio().Bind(1);
-    targets.objects().Bind(2);
-    targets.ids().Bind(3);
-    programs_.view.Use();
-    SetLensDepth(programs_.view, lens_frame.view, targets.samples());
-    programs_.view.Set("u_weight", weight);
+    bind();
+    program.Use();
+    SetLensDepth(program, lens_frame.view, targets.samples());
+    program.Set("u_weight", weight);
     DrawWithin(within);
     glDisable(GL_BLEND);
   }
+}
+
+void LensViews::Draw(const RenderTargets& targets, const LensFrame& lens_frame,
+                     std::span<const PixelRect> within, const DrawFrame& draw) const {
+  sums_.pictures.Bind();
+  for (const int sum : {0, 1, 2}) sums_.pictures.ClearColor(sum, 0, 0, 0, 0);
+  AddPlaces(targets, lens_frame, within, draw, sums_.pictures, programs_.view, [&] {
+    targets.ratio().Bind(1);
+    targets.objects().Bind(2);
+    targets.ids().Bind(3);
+  });
   targets.BeginPass(true);
   sums_.ratio.Bind(0);
   sums_.objects.Bind(1);
@@ -121,22 +130,8 @@ bool LensViews::MeasureOccluders(const RenderTargets& targets, const LensFrame& 
 
   sums_.occluders.Bind();
   sums_.occluders.ClearColor(0, 0, 0, 0, 0);
-  const float weight = 1.0F / static_cast<float>(lens_frame.places);
-  for (const Vec2 place : StopPlaces(lens_frame.lens.stop, lens_frame.places)) {
-    draw_real(SeenThroughPlace(lens_frame.frame, lens_frame.view, lens_frame.lens,
-                               place * (lens_frame.lens.aperture_m / 2)));
-    sums_.occluders.Bind();
-    glEnable(GL_BLEND);
-    glBlendFunc(GL_ONE, GL_ONE);
-    no_attributes_.Bind();
-    targets.depth().Bind(0);
-    virtual_.Bind(1);
-    programs_.occluders.Use();
-    SetLensDepth(programs_.occluders, lens_frame.view, targets.samples());
-    programs_.occluders.Set("u_weight", weight);
-    DrawWithin(within);
-    glDisable(GL_BLEND);
-  }
+  AddPlaces(targets, lens_frame, within, draw_real, sums_.occluders, programs_.occluders,
+            [&] { virtual_.Bind(1); });
   const Image<float> occluded = Downloaded(sums_.share, GL_RED, 1);
   for (std::size_t i = 0; i < occluded.size(); ++i) {
     if (occluded.data()[i] > kMinShare && shares.data()[i] > kMinShare) return true;

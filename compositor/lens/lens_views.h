@@ -26,9 +26,9 @@ struct LensFrame {
   int places = 32;  ///< Places on the stop, drawn one after another.
 };
 
-/// Draws the virtual image through many places of the lens's stop and averages the linear light: in
-/// the limit the image of a thin lens, with all that its parts hide from one another. Needs a
-/// current OpenGL context; move-only.
+/// Draws the virtual image through many places of the lens's stop and averages the linear light.
+/// Many places give the image of a thin lens, with all that its parts hide from one another. Needs
+/// a current OpenGL context; move-only.
 class LensViews {
  public:
   /// Draws a scene as a frame shows it.
@@ -39,11 +39,11 @@ class LensViews {
   /// gl::GlProgram::Create().
   static Result<LensViews> Create(int width, int height);
 
-  /// Returns the reciprocal distances, 1/m, of all that virtual objects affect in the drawn
-  /// `targets`: the smallest and the largest; the first is larger where nothing is affected.
+  /// Smallest and largest reciprocal distance, 1/m. `min` is the larger one without any.
   struct Range {
     float min = 1e30F, max = -1e30F;
   };
+  /// Returns the range of all that virtual objects affect in the drawn `targets`.
   Range AffectedDioptres(const RenderTargets& targets, const shadows::View& view,
                          std::span<const PixelRect> within) const;
 
@@ -53,14 +53,22 @@ class LensViews {
             std::span<const PixelRect> within, const DrawFrame& draw) const;
 
   /// Measures occluders after Draw(). `draw_real` has to draw the real surfaces alone. Returns
-  /// whether any pixel with objects has real surfaces in front of them over a part of the lens.
-  /// occluder_share() then has the share of each pixel.
+  /// whether real surfaces cover objects over a part of the lens in any pixel. occluder_share()
+  /// then has the share of each pixel.
   bool MeasureOccluders(const RenderTargets& targets, const LensFrame& lens_frame,
                         std::span<const PixelRect> within, const DrawFrame& draw_real);
   /// Share of the lens that shows a real surface in front of the objects, one channel.
   const gl::GlTexture& occluder_share() const { return sums_.share; }
 
  private:
+  using BindInputs = std::function<void()>;
+  /// Draws each place by `draw`, and adds what `program` makes of it to `sums`. `bind`: the inputs
+  /// of `program` besides the depth.
+  void AddPlaces(const RenderTargets& targets, const LensFrame& lens_frame,
+                 std::span<const PixelRect> within, const DrawFrame& draw,
+                 const gl::GlFramebuffer& sums, const gl::GlProgram& program,
+                 const BindInputs& bind) const;
+
   struct Sums {
     gl::GlTexture ratio, objects, distance, share;
     gl::GlFramebuffer pictures, occluders;

@@ -23,7 +23,7 @@ Vec2 OnBorder(const LensStop& stop, double share) {
 }  // namespace
 
 std::vector<Vec2> StopPlaces(const LensStop& stop, int count) {
-  constexpr double kGoldenShare = 2.0 - std::numbers::phi;  // Of a full turn.
+  constexpr double kGoldenShare = 2.0 - std::numbers::phi;  // Share of a full turn.
   std::vector<Vec2> places;
   places.reserve(static_cast<std::size_t>(count));
   Vec2 mean{0.0, 0.0};

@@ -9,7 +9,7 @@ namespace pleinair::compositor {
 /// circle whose diameter is the aperture.
 struct LensStop {
   int blades = 0;             ///< 0: round; else 3…16.
-  double rotation_rad = 0.0;  ///< Of one corner, from the image's right, clockwise.
+  double rotation_rad = 0.0;  ///< One corner's angle from the image's right, clockwise.
   bool operator==(const LensStop&) const = default;
 };
 

@@ -1,4 +1,5 @@
 #include "sky/atmosphere/air_medium.h"
+#include "sky/henyey_greenstein.h"
 
 #include <algorithm>
 #include <cmath>
@@ -30,9 +31,7 @@ double OzoneDensity(double height_m) {
 double MoleculePhase(double cosine) { return 3.0 / (16.0 * pi) * (1.0 + cosine * cosine); }
 
 double AerosolPhase(double asymmetry, double cosine) {
-  const double g2 = asymmetry * asymmetry;
-  const double base = std::max(1e-9, 1.0 + g2 - 2.0 * asymmetry * cosine);
-  return (1.0 - g2) / (4.0 * pi * base * std::sqrt(base));
+  return HenyeyGreenstein(asymmetry, cosine) / (4.0 * pi);
 }
 
 AirMedium::AirMedium(const Aerosol& haze, double albedo) : aerosol(haze), ground_albedo(albedo) {

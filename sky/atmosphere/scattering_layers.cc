@@ -1,5 +1,7 @@
 #include "sky/atmosphere/scattering_layers.h"
+#include "sky/gauss_rule.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -20,23 +22,10 @@ constexpr std::array<double, kLevels> kHeights = {
 double Sine(double mu) { return std::sqrt(std::max(0.0, 1.0 - mu * mu)); }
 
 GaussNodes ComputeGauss() {
+  const GaussRule rule = GaussOnUnitInterval(kGauss);
   GaussNodes nodes{};
-  for (int i = 0; i < kGauss; ++i) {
-    // Newton's method for the roots of the Legendre polynomial on [−1, 1].
-    double x = std::cos(pi * (i + 0.75) / (kGauss + 0.5)), slope = 1.0;
-    for (int iteration = 0; iteration < 50; ++iteration) {
-      double p = 1.0, previous = 0.0;
-      for (int n = 1; n <= kGauss; ++n) {
-        const double next = ((2.0 * n - 1.0) * x * p - (n - 1.0) * previous) / n;
-        previous = p;
-        p = next;
-      }
-      slope = kGauss * (x * p - previous) / (x * x - 1.0);
-      x -= p / slope;
-    }
-    nodes.mu[kGauss - 1 - i] = 0.5 * (1.0 + x);
-    nodes.weight[kGauss - 1 - i] = 1.0 / ((1.0 - x * x) * slope * slope);
-  }
+  std::copy(rule.nodes.begin(), rule.nodes.end(), nodes.mu.begin());
+  std::copy(rule.weights.begin(), rule.weights.end(), nodes.weight.begin());
   return nodes;
 }
 

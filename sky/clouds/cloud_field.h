@@ -14,13 +14,13 @@ namespace pleinair::clouds {
 /// What a field holds within kCoverSquare_m around the place.
 struct CloudStatistics {
   double cover = 0.0;               ///< Share of ground below columns deeper than CloudyDepth().
-  double mean_optical_depth = 0.0;  ///< Of those columns; 0 without any.
+  double mean_optical_depth = 0.0;  ///< Mean of those columns; 0 without any.
 };
 
 /// A layer of clouds as a field of columns: vertical optical depth and height above the base, from
-/// hashed noise. Cover and mean optical depth are those of the description within
-/// kCoverSquare_m: exactly at 0 s, and at all times where the square is a period of the field
-/// (cells of up to 8 km). The field moves with the wind and keeps its shape.
+/// hashed noise. Cover and mean optical depth are those of the description within kCoverSquare_m at
+/// 0 s. With cells of up to 8 km the square is a period of the field, and they hold at all times.
+/// The field moves with the wind and keeps its shape.
 ///
 /// Coordinates are east, north, up in metres from the place; the ground is a plane. A column's
 /// extinction is uniform between the base and its top. Thread-safe.
@@ -67,7 +67,7 @@ class CloudField {
 
  private:
   static constexpr int kSide = 1024;     ///< Samples of a period, in each direction.
-  static constexpr int kEntries = 2048;  ///< Of the table of depths.
+  static constexpr int kEntries = 2048;  ///< Size of the table of depths.
   static constexpr double kLeastHeight = 0.2;
   static constexpr double kMinRise = 1e-3;
 

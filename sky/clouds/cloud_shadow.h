@@ -18,9 +18,9 @@ CloudFields MakeFields(const std::vector<CloudLayer>& layers);
 /// sun's disc (0.533°). `to_sun`: unit vector, east, north, up; `point_m`: the same axes, from the
 /// place. 0 for a sun below the horizon.
 ///
-/// The disc is sampled by 64 parallel rays, spread over the part of a layer that the disc covers as
-/// seen from the point: exact for layers that are thin against their distance. A homogeneous layer
-/// gives e^(−τ/μ₀) exactly.
+/// The disc is sampled by 64 parallel rays, spread over the part of a layer that it covers as seen
+/// from the point. That is exact for layers that are thin against their distance. A homogeneous
+/// layer gives e^(−τ/μ₀) exactly.
 double SunTransmittance(const CloudFields& fields, Vec3 point_m, Direction<World> to_sun,
                         double seconds);
 

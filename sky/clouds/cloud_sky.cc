@@ -96,7 +96,7 @@ AreaLight ComputeAreaLight(const CloudFields& fields, const sky::SkyModel& clear
 namespace {
 
 /// The clear sky's light that a slab scatters downwards, relative to that of a uniform sky of the
-/// same illuminance: clear skies are brightest near the horizon and the sun.
+/// same illuminance. Clear skies are brightest near the horizon and the sun.
 class ClearSkyShape {
  public:
   ClearSkyShape(const sky::SkyModel& clear, const SlabTable& table) {
@@ -146,7 +146,7 @@ class ClearSkyShape {
 struct CloudSky::Optics {
   std::vector<HigherOrders> higher;            ///< One per layer.
   std::optional<ClearSkyShape> above_highest;  ///< Nothing without layers.
-  double global_share = 1.0;                   ///< Of the clear sky's global illuminance.
+  double global_share = 1.0;                   ///< Share of the clear sky's global illuminance.
   std::once_flag dome_made;
   LinearRgb dome;
 };
@@ -244,7 +244,7 @@ LinearRgb CloudSky::SunNormalIrradiance() const {
   return clear_->SunNormalIrradiance() * sun_transmittance_;
 }
 
-// Two grids, with weights that add to 1: one of the dome, and a finer one around the sun, where the
+// Two grids, with weights that add to 1: one of the dome, and a finer one around the sun. There the
 // aureole of thin clouds is narrower than the dome's cells.
 LinearRgb CloudSky::IntegrateDome() const {
   constexpr int kRings = 128, kSectors = 256, kSunRings = 40, kSunSectors = 48;

@@ -17,8 +17,8 @@ struct LayerLight {
 
 /// Mean illuminances over the area, with the light between layers and ground.
 ///
-/// Each layer reflects R(μ₀ τ_slant, μ₀) of the direct light, the mean over columns that are tilted
-/// towards the sun (Varnai & Davies 1999, "tilted independent columns"), and S of diffuse light.
+/// Each layer reflects S of diffuse light and R(μ₀ τ_slant, μ₀) of direct light. R is the mean over
+/// columns that are tilted towards the sun (Várnai & Davies 1999, "tilted independent columns").
 /// The fluxes between layers and ground follow by adding.
 struct AreaLight {
   std::vector<LayerLight> layers;  ///< In the order of the fields.
@@ -29,8 +29,9 @@ AreaLight ComputeAreaLight(const CloudFields& fields, const sky::SkyModel& clear
 
 /// A clear sky with layers of clouds in front of it, as seen from the place.
 ///
-/// - A ray through a layer is marched: first scattering of the sunlight exact, with the shadows of
-///   the layer on itself and of higher layers on it; HigherOrders for the rest.
+/// - A ray through a layer is marched. First scattering of the sunlight is exact, with the shadows
+/// of
+///   the layer and of higher layers on it. HigherOrders has the rest.
 /// - Light of the sky above and of the ground below: by the slab of the ray's optical depth. By
 ///   reciprocity, a slab under isotropic light shows R(τ, μ) of it in the direction μ.
 /// - SunNormalIrradiance() is that at the place, with SunTransmittance().
@@ -60,7 +61,7 @@ class CloudSky : public sky::SkyModel {
   struct Optics;
   struct Seen {
     LinearRgb clouds;          ///< cd/m².
-    double clear_share = 1.0;  ///< Of the clear sky's radiance.
+    double clear_share = 1.0;  ///< Share of the clear sky's radiance that is seen.
   };
   Seen Look(Direction<World> from) const;
   LinearRgb IntegrateDome() const;

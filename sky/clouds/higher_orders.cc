@@ -6,6 +6,8 @@
 #include <numbers>
 
 #include "sky/clouds/cloud_phase.h"
+#include "sky/gauss_rule.h"
+#include "sky/henyey_greenstein.h"
 
 namespace pleinair::clouds {
 namespace {
@@ -72,7 +74,7 @@ HigherOrders::Phases HigherOrders::PhasesAt(double cosine) const {
   double factor = 1.0;
   for (double& phase : phases) {
     factor *= 0.5;
-    phase = factor * HenyeyGreenstein(asymmetry_ * factor, cosine);
+    phase = factor * sky::HenyeyGreenstein(asymmetry_ * factor, cosine);
   }
   return phases;
 }
@@ -81,10 +83,10 @@ HigherOrders::Phases HigherOrders::PhasesAt(double cosine) const {
 HigherOrders::Scale HigherOrders::SolveScale(CloudKind kind, const SlabTable& table,
                                              double depth) const {
   constexpr int kDirections = 12, kPieces = 32;
-  static const GaussRule directions = GaussOnUnitInterval(kDirections);
-  static const GaussRule pieces = GaussOnUnitInterval(kPieces);
+  static const sky::GaussRule directions = sky::GaussOnUnitInterval(kDirections);
+  static const sky::GaussRule pieces = sky::GaussOnUnitInterval(kPieces);
   const double sun_sine = std::sqrt(1.0 - sun_cosine_ * sun_cosine_);
-  Fluxes lit, shaded;  // Of octaves with the weights 1 − s and s.
+  Fluxes lit, shaded;  // Those of octaves with the weights 1 − s and s.
   for (int i = 0; i < kDirections; ++i) {
     const double cosine = directions.nodes[i];
     const double sine = std::sqrt(1.0 - cosine * cosine);

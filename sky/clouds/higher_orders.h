@@ -7,17 +7,16 @@
 
 namespace pleinair::clouds {
 
-/// Sunlight that a cloud scatters more than once, by octaves (Wrenninge et al. 2013): in each
-/// octave n = 1…12 the light is halved, the sun's optical depth is halved and the phase function's
-/// asymmetry is halved.
+/// Sunlight that a cloud scatters more than once, by octaves (Wrenninge et al. 2013). Each octave
+/// n = 1…12 halves the light, the sun's optical depth and the phase function's asymmetry.
 ///
 /// In thick layers their sum decreases as 1/τ, as light does.
 ///
 ///   J = Σ_n 2^−n p(2^−n g) e^(−2^−n τ_sun) · k / 4π
 ///
-/// The octaves do not conserve energy. The scale k(τ, s) does: with it, a homogeneous column of the
-/// optical depth τ has the upward and downward flux of SlabTable, first scattering included. k is
-/// linear in s, the share of the column's depth that lies towards the sun.
+/// The octaves do not conserve energy. The scale k(τ, s) gives a homogeneous column of the optical
+/// depth τ the upward and downward flux of SlabTable, first scattering included. k is linear in s,
+/// the share of the column's depth that lies towards the sun.
 class HigherOrders {
  public:
   static constexpr int kOctaves = 12;

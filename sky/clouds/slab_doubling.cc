@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <utility>
+
+#include "sky/gauss_rule.h"
 
 namespace pleinair::clouds {
 namespace {
@@ -85,7 +86,7 @@ struct Streams {
 };
 
 Streams MakeStreams(const std::vector<double>& sun_cosines) {
-  GaussRule rule = GaussOnUnitInterval(kDirections);
+  sky::GaussRule rule = sky::GaussOnUnitInterval(kDirections);
   Streams streams{std::move(rule.nodes), std::move(rule.weights)};
   streams.cosines.insert(streams.cosines.end(), sun_cosines.begin(), sun_cosines.end());
   streams.weights.resize(streams.cosines.size(), 0.0);
@@ -191,25 +192,6 @@ SlabFluxes FluxesOf(const Layer& layer, const Streams& streams) {
 }
 
 }  // namespace
-
-GaussRule GaussOnUnitInterval(int count) {
-  GaussRule rule;
-  rule.nodes.resize(static_cast<std::size_t>(count));
-  rule.weights.resize(static_cast<std::size_t>(count));
-  for (int i = 0; i < count; ++i) {
-    // Newton's method from Chebyshev's nodes.
-    double x = std::cos(std::numbers::pi * (i + 0.75) / (count + 0.5));
-    double slope = 1.0;
-    for (int step = 0; step < 12; ++step) {
-      const std::vector<double> p = Legendre(x, count + 1);
-      slope = count * (x * p[count] - p[count - 1]) / (x * x - 1.0);
-      x -= p[count] / slope;
-    }
-    rule.nodes[i] = 0.5 * (1.0 - x);
-    rule.weights[i] = 1.0 / ((1.0 - x * x) * slope * slope);
-  }
-  return rule;
-}
 
 std::vector<SlabFluxes> DoubleSlab(const SlabMedium& medium, double first_depth, int count,
                                    const std::vector<double>& sun_cosines) {

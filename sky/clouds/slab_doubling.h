@@ -22,8 +22,8 @@ struct SlabFluxes {
   double diffuse_transmitted = 0.0;  ///< The same for isotropic light from above.
 };
 
-/// Fluxes of slabs with the optical depths `first_depth` · 2^k, k = 0…count−1, for direct light at
-/// the cosines `sun_cosines` (0 < μ₀ ≤ 1) from the vertical.
+/// Fluxes of slabs with the optical depths `first_depth` · 2^k, k = 0…count−1. `sun_cosines`:
+/// cosines from the vertical of the direct light, 0 < μ₀ ≤ 1.
 ///
 /// Adding–doubling (van de Hulst 1963; Hansen & Travis 1974, §4) of the azimuthal mean, with 24
 /// Gaussian directions a hemisphere. The phase function is delta-M scaled (Wiscombe 1977). The
@@ -31,11 +31,5 @@ struct SlabFluxes {
 /// conservative scattering, R + T = 1 to 1e-9.
 std::vector<SlabFluxes> DoubleSlab(const SlabMedium& medium, double first_depth, int count,
                                    const std::vector<double>& sun_cosines);
-
-/// Nodes and weights of Gauss–Legendre quadrature on [0, 1].
-struct GaussRule {
-  std::vector<double> nodes, weights;
-};
-GaussRule GaussOnUnitInterval(int count);
 
 }  // namespace pleinair::clouds

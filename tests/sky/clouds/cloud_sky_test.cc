@@ -14,6 +14,7 @@
 #include "sky/clouds/cloud_phase.h"
 #include "sky/clouds/cloud_slab.h"
 #include "sky/dome.h"
+#include "sky/henyey_greenstein.h"
 
 namespace pleinair::clouds {
 namespace {
@@ -44,8 +45,8 @@ double Global(const sky::SkyModel& sky) {
 }
 
 TEST(CloudPhase, IsNormalised) {
-  for (const auto& phase : {+[](double c) { return HenyeyGreenstein(0.85, c); },
-                            +[](double c) { return HenyeyGreenstein(0.77, c); },
+  for (const auto& phase : {+[](double c) { return sky::HenyeyGreenstein(0.85, c); },
+                            +[](double c) { return sky::HenyeyGreenstein(0.77, c); },
                             +[](double c) { return DropletPhase(10.0, c); }}) {
     constexpr int kSteps = 200'000;
     double sum = 0.0;
@@ -60,7 +61,7 @@ TEST(CloudPhase, IsNormalised) {
 // Droplets have a fogbow near 140° and a glory at 180°; Henyey–Greenstein has neither.
 TEST(CloudPhase, OfDropletsRisesBackwards) {
   EXPECT_GT(DropletPhase(10.0, -1.0), 1.5 * DropletPhase(10.0, std::cos(1.8)));
-  EXPECT_LT(HenyeyGreenstein(0.85, -1.0), HenyeyGreenstein(0.85, std::cos(1.8)));
+  EXPECT_LT(sky::HenyeyGreenstein(0.85, -1.0), sky::HenyeyGreenstein(0.85, std::cos(1.8)));
 }
 
 TEST(CloudSky, UnderASlabHasTheIlluminanceOfTheTable) {

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "sky/clouds/slab_doubling.h"
+#include "sky/gauss_rule.h"
 
 namespace pleinair::clouds {
 namespace {
@@ -68,7 +69,7 @@ TEST(SlabDoubling, LosesMoreTheMoreIsAbsorbed) {
 }
 
 TEST(GaussRule, IntegratesPolynomialsExactly) {
-  const GaussRule rule = GaussOnUnitInterval(24);
+  const sky::GaussRule rule = sky::GaussOnUnitInterval(24);
   for (int power = 0; power < 48; ++power) {
     double sum = 0.0;
     for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
