@@ -121,7 +121,8 @@ TEST(CloudShadow, IsDisplacedByTheSunsElevation) {
   const double elevation = 25.0;
   const double displacement = 1005.0 / std::tan(elevation * kRadiansPerDegree);
   double best = 1e300, best_shift = 0.0;
-  for (double shift = displacement - 60.0; shift <= displacement + 60.0; shift += 1.0) {
+  for (int metres = -60; metres <= 60; ++metres) {
+    const double shift = displacement + metres;
     double squares = 0.0;
     for (int i = 0; i < 300; ++i) {
       const Vec3 ground{61.0 * i - 9000.0, 17.0 * i, 0.0};
