@@ -179,8 +179,9 @@ std::vector<std::string> FindBreaches(const fs::path& file, std::string_view tex
   const auto rule = AllowedModules().find(module);
   if (rule == AllowedModules().end()) return {file.string() + ": is in no module"};
   for (const Include& include : ParseIncludes(text)) {
-    const std::string what =
-        file.string() + ":" + std::to_string(include.line) + ": includes " + include.path + ": ";
+    std::string what = file.string();
+    what.append(":").append(std::to_string(include.line)).append(": includes ");
+    what.append(include.path).append(": ");
     const std::string other = ModuleOf(include.path);
     if (AllowedModules().contains(other) && other != module && !rule->second.contains(other)) {
       breaches.push_back(what + module + " may not know " + other);

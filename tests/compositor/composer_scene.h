@@ -128,7 +128,7 @@ inline RgbImage Compose(const std::vector<PlacedModel>& scene, const RgbImage& p
                         const CameraModel& camera = kCamera, double sun_lux = kSunLux,
                         ComposerOptions options = {}, const std::optional<CameraLook>& look = {},
                         bool assume_unmodelled_shadows = true) {
-  return Compose(scene, CameraImageView(picture.view()), camera, sun_lux, std::move(options), look,
+  return Compose(scene, CameraImageView(picture.view()), camera, sun_lux, options, look,
                  assume_unmodelled_shadows);
 }
 

@@ -124,7 +124,7 @@ TEST(Sky, GivesTheShadowOfCloudsAtPoints) {
   std::string table = "id,north_m,east_m,seconds\n";
   for (int i = 0; i < 40; ++i) {
     const std::string north = std::to_string(150 * i);
-    table += "a," + north + ",0,0\n" + "b," + north + ",800,100\n";
+    table.append("a,").append(north).append(",0,0\nb,").append(north).append(",800,100\n");
   }
   WriteFile(folder / "in.csv", table);
   const RunResult run = RunPleinair({"sky", "--sun", "180,40", "--cloud-layer",
