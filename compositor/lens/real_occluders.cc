@@ -2,6 +2,7 @@
 
 #include <epoxy/gl.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <span>
@@ -53,12 +54,24 @@ void RealOccluders::Estimate(const gl::GlTexture& share, std::span<const PixelRe
     free.data()[i] = std::pow(1.0F - std::fmin(from[3], 1.0F), 8.0F);
     covered.data()[i] = from[3] > kAlone ? 1.0F : 0.0F;
   }
+  const Image<float> occluders = FillFromNearest(light, covered);
+  const bool is_known = std::ranges::any_of(std::span(covered.data(), covered.size()),
+                                            [](float weight) { return weight > 0.0F; });
+  // Pixels that show a little of the occluder would tint the background.
+  for (std::size_t i = 0; i < free.size() && is_known; ++i) {
+    const float hidden = std::fmin(frame.data()[4 * i + 3], 1.0F);
+    if (free.data()[i] == 0.0F || hidden == 0.0F) continue;
+    for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) {
+      light.data()[c] =
+          std::fmax((light.data()[c] - hidden * occluders.data()[c]) / (1.0F - hidden), 0.0F);
+    }
+  }
   const Image<float> behind = FillFromNearest(light, free);
   for (std::size_t i = 0; i < free.size(); ++i) {
     for (int c = 0; c < 3; ++c) frame.data()[4 * i + c] = behind.data()[3 * i + c];
   }
   background_.Upload(GL_RGBA, GL_FLOAT, frame.data());
-  occluders_.Upload(GL_RGB, GL_FLOAT, FillFromNearest(light, covered).data());
+  occluders_.Upload(GL_RGB, GL_FLOAT, occluders.data());
 }
 
 }  // namespace pleinair::compositor
