@@ -3,7 +3,6 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <glm/glm.hpp>
 #include <memory>
@@ -17,6 +16,7 @@
 #include "compositor/lens_drawing.h"
 #include "compositor/light/changing/changing_bodies.h"
 #include "compositor/passes/frame_daylight.h"
+#include "compositor/passes/frame_programs.h"
 #include "compositor/passes/frame_uniforms.h"
 #include "compositor/passes/glm_vectors.h"
 #include "compositor/passes/object_pass.h"
@@ -24,7 +24,6 @@
 #include "compositor/passes/scene_view.h"
 #include "compositor/passes/shadow_debug_view.h"
 #include "compositor/passes/shadow_ratio_pass.h"
-#include "compositor/passes/surface_programs.h"
 #include "compositor/surfaces/scene_surfaces.h"
 #include "gl/egl_context.h"
 #include "gl/program.h"
@@ -36,9 +35,7 @@ namespace {
 struct Passes {
   ShadowRatioPass ratio;
   ObjectPass objects;
-  // Created on first use. First index: one step of the sun, or two that fade into one another.
-  // Second index: without and with airlight.
-  std::array<std::array<std::optional<SurfacePrograms>, 2>, 2> programs;
+  FramePrograms programs;
   std::optional<ShadowDebugView> debug_view;  // Created on first use, for one canvas.
 };
 
@@ -80,7 +77,7 @@ class GlComposer : public Composer {
   void SetLens(const std::optional<ThinLens>& lens, int places) override {
     lens_.SetLens(lens, places);
   }
-  double LargestCircle_px() const override { return lens_.largest_circle_px(); }
+  LensFigures DrawnLens() const override { return lens_.figures(); }
   Result<void> SkipImage(const Transform<Camera, Marker>& camera_from_marker) override;
   Result<void> SetCameraLook(const std::optional<CameraLook>& look) override {
     PLEINAIR_RETURN_IF_ERROR(context_.MakeCurrent());
@@ -105,11 +102,13 @@ class GlComposer : public Composer {
   Result<shadows::View> UpdateScene(const Transform<Camera, Marker>& camera_from_marker);
   void DrawScene(const SurfacePrograms& programs, const FrameUniforms& frame,
                  const AffectedTiles& tiles);
+  void ShadeObjects(const SurfacePrograms& programs, const FrameUniforms& frame,
+                    std::span<const PixelRect> within);
   FrameUniforms FrameOf(const shadows::View& view,
                         const Transform<Camera, Marker>& camera_from_marker,
                         LinearRgb exposure_scale) const;
   AffectedTiles DrawCoarse(const SurfacePrograms& programs, const shadows::View& view,
-                           const FrameUniforms& frame);
+                           const FrameUniforms& frame, int lens_spread_px);
   Result<void> DrawDebugView(const shadows::View& view);
 
   gl::EglContext context_;  // First, so that it outlives the GL objects.
@@ -180,7 +179,7 @@ Result<void> GlComposer::SetOptions(const ComposerOptions& options) {
                              maps.partitions != shadows_.options().partitions;
   if (maps != shadows_.options()) PLEINAIR_RETURN_IF_ERROR(MakeShadows(maps));
   if (other_shaders) {
-    passes_.programs = {};
+    passes_.programs.Clear();
     PLEINAIR_RETURN_IF_ERROR(ProgramsFor({}));
   }
   surfaces_.Use(options.reductions);
@@ -189,22 +188,8 @@ Result<void> GlComposer::SetOptions(const ComposerOptions& options) {
 }
 
 Result<const SurfacePrograms*> GlComposer::ProgramsFor(const FrameUniforms& frame) {
-  std::optional<SurfacePrograms>& made =
-      passes_.programs[shadows_.Fades() ? 1 : 0][frame.needs_airlight ? 1 : 0];
-  if (!made) {
-    PLEINAIR_ASSIGN_OR_RETURN(
-        SurfacePrograms programs,
-        SurfacePrograms::Create(shadows_.options(),
-                                {.fades = shadows_.Fades(),
-                                 .needs_airlight = frame.needs_airlight,
-                                 .textured = surfaces_.materials().HasTextures(),
-                                 .blended = surfaces_.materials().HasBlended(),
-                                 .detailed = surfaces_.materials().HasDetails(),
-                                 .translucent = surfaces_.materials().HasTranslucent(),
-                                 .glossy = surfaces_.materials().HasGloss()}));
-    made.emplace(std::move(programs));
-  }
-  return &*made;
+  return passes_.programs.For(shadows_.options(), surfaces_.materials(),
+                              {shadows_.Fades(), frame.needs_airlight});
 }
 
 Result<void> GlComposer::SetLight(const std::vector<LitMesh>& lit, const sky::SkyModel& day,
@@ -278,15 +263,20 @@ Result<void> GlComposer::SortSurfaces() {
   return surfaces_.SortObjects(light_.HasSun() ? ToGlm(light_.to_sun()) : glm::vec3(0.0F));
 }
 
+/// Requires ObjectPass::DrawSurfaces().
+void GlComposer::ShadeObjects(const SurfacePrograms& programs, const FrameUniforms& frame,
+                              std::span<const PixelRect> within) {
+  light_.transmittance().Bind(5);
+  passes_.objects.Draw(canvas_.targets, surfaces_, programs, frame, light_.environment(), within);
+}
+
 void GlComposer::DrawScene(const SurfacePrograms& programs, const FrameUniforms& frame,
                            const AffectedTiles& tiles) {
   EnableSurfaceTests();
   passes_.ratio.DrawSurfaces(canvas_.targets, surfaces_, frame, tiles.fine.Bounds());
   passes_.objects.DrawSurfaces(canvas_.targets, surfaces_, frame, tiles.objects.Bounds());
   glDisable(GL_CULL_FACE);
-  light_.transmittance().Bind(5);
-  passes_.objects.Draw(canvas_.targets, surfaces_, programs, frame, light_.environment(),
-                       tiles.objects.Rectangles());
+  ShadeObjects(programs, frame, tiles.objects.Rectangles());
   canvas_.picture.BindForShading(2, 3, 4);
   passes_.ratio.Draw(canvas_.targets, surfaces_, programs, frame, unmodelled_,
                      tiles.fine.Rectangles());
@@ -315,9 +305,10 @@ FrameUniforms GlComposer::FrameOf(const shadows::View& view,
 
 /// Draws the coarse ratio where it is enough. Requires classified surfaces.
 AffectedTiles GlComposer::DrawCoarse(const SurfacePrograms& programs, const shadows::View& view,
-                                     const FrameUniforms& frame) {
+                                     const FrameUniforms& frame, int lens_spread_px) {
   SceneProjection image =
-      ProjectionOf(canvas_.camera, view, canvas_.picture.Spread_px() + canvas_.places.Spread_px());
+      ProjectionOf(canvas_.camera, view,
+                   canvas_.picture.Spread_px() + canvas_.places.Spread_px() + lens_spread_px);
   image.resolves_sunlit_sky = frame.needs_airlight;
   AffectedTiles tiles = surfaces_.TilesOf(image);
   if (options_.show_shadow_maps) tiles.all.IncludeAll();
@@ -367,18 +358,30 @@ Result<RgbImage> GlComposer::Compose(CameraImageView image,
   PLEINAIR_ASSIGN_OR_RETURN(const shadows::View view, UpdateScene(camera_from_marker));
   const FrameUniforms frame = FrameOf(view, camera_from_marker, exposure_scale);
   PLEINAIR_ASSIGN_OR_RETURN(const SurfacePrograms* programs, ProgramsFor(frame));
-  AffectedTiles tiles = DrawCoarse(*programs, view, frame);
-  canvas_.places.Draw(canvas_.targets, frame, tiles.fine.Rectangles(),
-                      [&](const FrameUniforms& place) { DrawScene(*programs, place, tiles); });
+  const auto draw_pinhole = [&](int lens_spread_px) {
+    AffectedTiles drawn = DrawCoarse(*programs, view, frame, lens_spread_px);
+    canvas_.places.Draw(canvas_.targets, frame, drawn.fine.Rectangles(),
+                        [&](const FrameUniforms& place) { DrawScene(*programs, place, drawn); });
+    return drawn;
+  };
+  const int spread_px =
+      lens_.AssumedSpread_px(canvas_.camera, view, surfaces_.placement().object_bounds());
+  AffectedTiles tiles = draw_pinhole(spread_px);
   // Airlight in front of surfaces is drawn into the objects' image.
   if (frame.needs_airlight) tiles.objects.Include(tiles.fine);
   const LensScene seen{canvas_,
                        surfaces_,
                        passes_.ratio,
+                       passes_.objects,
                        options_.show_shadow_maps,
                        camera_.fx,
+                       spread_px,
+                       draw_pinhole,
                        [&](const FrameUniforms& through, const AffectedTiles& drawn) {
                          DrawScene(*programs, through, drawn);
+                       },
+                       [&](const FrameUniforms& through, std::span<const PixelRect> within) {
+                         ShadeObjects(*programs, through, within);
                        }};
   PLEINAIR_ASSIGN_OR_RETURN(const RealOccluders* occluders, lens_.Draw(seen, frame, view, &tiles));
   PLEINAIR_RETURN_IF_ERROR(

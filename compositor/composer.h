@@ -14,6 +14,7 @@
 #include "base/image.h"
 #include "base/vector.h"
 #include "compositor/composer_options.h"
+#include "compositor/lens/lens_figures.h"
 #include "compositor/lens/thin_lens.h"
 #include "compositor/light/light_mix.h"
 #include "compositor/light/lit_mesh.h"
@@ -100,12 +101,11 @@ class Composer {
   /// Sets the lens that the next images are seen through; nothing, the default: all is in focus.
   /// Surfaces are then out of focus by their distance, in addition to the blur of SetCameraLook().
   /// Images whose circles of confusion are all below 0.3 pixels have the bytes of those without.
-  /// `places`: on the stop, drawn one after another, 1…1024.
+  /// `places`: on the stop, drawn one after another, 1…1024, or kByLayers.
   virtual void SetLens(const std::optional<ThinLens>& lens, int places) = 0;
 
-  /// Diameter of the largest circle of confusion in the last image, camera pixels, over all that
-  /// virtual objects affect. 0: nothing was out of focus.
-  virtual double LargestCircle_px() const = 0;
+  /// What the lens has drawn in the last image; camera pixels.
+  virtual LensFigures DrawnLens() const = 0;
 
   /// Updates all that Compose() carries to later images, and draws none. Later images have the same
   /// bytes as after Compose(). Errors as Compose().

@@ -2,46 +2,99 @@
 
 #include <epoxy/gl.h>
 
+#include <algorithm>
+#include <glm/glm.hpp>
 #include <vector>
 
 #include "compositor/lens/lens_pass.h"
 #include "compositor/passes/scene_view.h"
 
 namespace pleinair::compositor {
+namespace {
+
+void DisableSurfaceTests() {
+  glDisable(GL_CULL_FACE);
+  glDisable(GL_DEPTH_TEST);
+}
+
+}  // namespace
+
+int LensDrawing::AssumedSpread_px(const RenderCamera& camera, const shadows::View& view,
+                                  const shadows::Box& objects) const {
+  if (!lens_) return 0;
+  double circle_px = 0.0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const auto pick = [&](int axis) {
+      return (corner >> axis & 1) == 0 ? objects.min[axis] : objects.max[axis];
+    };
+    const glm::dvec4 at_m = view.camera_from_marker * glm::dvec4(pick(0), pick(1), pick(2), 1.0);
+    const double distance_m = std::max(at_m.z, lens_->MinDistance_m());
+    circle_px = std::max(circle_px, CircleOfConfusion_px(*lens_, camera.fx, distance_m));
+  }
+  // Shadows around the objects have other circles.
+  constexpr double kAround = 1.3;
+  return circle_px < LensPass::kMinCircle_px ? 0 : LensPass::Spread_px(kAround * circle_px);
+}
+
+Result<int> LensDrawing::Measure(Canvas& canvas, const LensFrame& lens, double camera_fx,
+                                 const ImageTiles& drawn) {
+  PLEINAIR_ASSIGN_OR_RETURN(
+      const double circle_px,
+      canvas.lens.LargestCircle_px(canvas.targets, lens, canvas.camera, drawn));
+  figures_ = {.largest_circle_px = circle_px * camera_fx / canvas.camera.fx};
+  return circle_px < LensPass::kMinCircle_px ? 0 : LensPass::Spread_px(circle_px);
+}
 
 Result<const RealOccluders*> LensDrawing::Draw(const LensScene& scene, const FrameUniforms& frame,
                                                const shadows::View& view, AffectedTiles* tiles) {
-  largest_circle_px_ = 0.0;
+  figures_ = {};
   if (!lens_) return nullptr;
   Canvas& canvas = scene.canvas;
   const LensFrame lens{frame, view, *lens_, places_};
-  PLEINAIR_ASSIGN_OR_RETURN(
-      const double circle_px,
-      canvas.lens.LargestCircle_px(canvas.targets, lens, canvas.camera, tiles->fine));
-  largest_circle_px_ = circle_px * scene.camera_fx / canvas.camera.fx;
-  if (largest_circle_px_ < LensPass::kMinCircle_px) return nullptr;
-  *tiles = scene.surfaces.TilesOf(ProjectionOf(
-      canvas.camera, view,
-      canvas.picture.Spread_px() + canvas.places.Spread_px() + LensPass::Spread_px(circle_px)));
-  if (scene.includes_all) tiles->all.IncludeAll();
-  // Nothing is interpolated from the coarse ratio, which is not blurred.
-  tiles->fine.Include(tiles->all);
-  tiles->fine = canvas.picture.SetTiles(*tiles);
-  tiles->objects = tiles->fine;
+  PLEINAIR_ASSIGN_OR_RETURN(int spread_px, Measure(canvas, lens, scene.camera_fx, tiles->fine));
+  if (places_ == kByLayers && spread_px > scene.spread_px) {
+    // Shadows may lie far from the objects. The image then needs more pixels around it.
+    *tiles = scene.draw_pinhole(spread_px);
+    PLEINAIR_RETURN_IF_ERROR(Measure(canvas, lens, scene.camera_fx, tiles->fine));
+  }
+  if (spread_px == 0) return nullptr;
+  if (places_ != kByLayers) {
+    *tiles = scene.surfaces.TilesOf(ProjectionOf(
+        canvas.camera, view, canvas.picture.Spread_px() + canvas.places.Spread_px() + spread_px));
+    if (scene.includes_all) tiles->all.IncludeAll();
+    // Nothing is interpolated from the coarse ratio, which is not blurred.
+    tiles->fine.Include(tiles->all);
+    tiles->fine = canvas.picture.SetTiles(*tiles);
+    tiles->objects = tiles->fine;
+  }
   const std::vector<PixelRect> within = tiles->fine.Rectangles();
-  canvas.lens.Draw(canvas.targets, lens, within, [&](const FrameUniforms& through) {
-    canvas.places.Draw(canvas.targets, through, within,
-                       [&](const FrameUniforms& place) { scene.draw(place, *tiles); });
-  });
-  return canvas.lens.OccludersIn(
-      canvas.targets, lens, within,
-      [&](const FrameUniforms& through) {
-        EnableSurfaceTests();
-        scene.ratio.DrawSurfaces(canvas.targets, scene.surfaces, through, tiles->fine.Bounds());
-        glDisable(GL_CULL_FACE);
-        glDisable(GL_DEPTH_TEST);
-      },
-      [&] { canvas.picture.BindForShading(2, 3, 4); });
+  const auto bind_frame = [&] { canvas.picture.BindForShading(2, 3, 4); };
+  const auto draw_real = [&](const FrameUniforms& through) {
+    EnableSurfaceTests();
+    scene.ratio.DrawSurfaces(canvas.targets, scene.surfaces, through, tiles->fine.Bounds());
+    DisableSurfaceTests();
+  };
+  const auto draw_objects = [&] {
+    EnableSurfaceTests();
+    scene.ratio.DrawSurfaces(canvas.targets, scene.surfaces, frame, {});  // Clears.
+    scene.objects.DrawSurfaces(canvas.targets, scene.surfaces, frame, tiles->fine.Bounds());
+    DisableSurfaceTests();
+  };
+  const auto shade_objects = [&](std::span<const PixelRect> hidden) {
+    glEnable(GL_DEPTH_TEST);
+    scene.shade_objects(frame, hidden);
+    glDisable(GL_DEPTH_TEST);
+  };
+  if (places_ == kByLayers) {
+    return canvas.lens.DrawLayers(canvas.targets, lens, canvas.camera, within,
+                                  {draw_objects, shade_objects}, bind_frame, &figures_);
+  }
+  PLEINAIR_RETURN_IF_ERROR(
+      canvas.lens.Draw(canvas.targets, lens, within, [&](const FrameUniforms& through) {
+        canvas.places.Draw(canvas.targets, through, within,
+                           [&](const FrameUniforms& place) { scene.draw(place, *tiles); });
+      }));
+  return canvas.lens.OccludersIn(canvas.targets, lens, within, draw_real, bind_frame);
 }
 
 }  // namespace pleinair::compositor

@@ -2,12 +2,15 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 
 #include "base/error.h"
 #include "compositor/canvas.h"
+#include "compositor/lens/lens_figures.h"
 #include "compositor/lens/real_occluders.h"
 #include "compositor/lens/thin_lens.h"
 #include "compositor/passes/frame_uniforms.h"
+#include "compositor/passes/object_pass.h"
 #include "compositor/passes/shadow_ratio_pass.h"
 #include "compositor/surfaces/image_tiles.h"
 #include "compositor/surfaces/scene_surfaces.h"
@@ -20,10 +23,16 @@ struct LensScene {
   Canvas& canvas;
   const SceneSurfaces& surfaces;  ///< Classified.
   const ShadowRatioPass& ratio;
+  const ObjectPass& objects;
   bool includes_all = false;  ///< Draws all tiles of the image.
   double camera_fx = 0.0;     ///< Focal length of the camera image, pixels.
+  int spread_px = 0;          ///< By which the drawn pinhole image has more pixels than needed.
+  /// Draws the pinhole image with such a spread, and returns its tiles.
+  std::function<AffectedTiles(int)> draw_pinhole;
   /// Draws the scene as a frame shows it into the tiles.
   std::function<void(const FrameUniforms&, const AffectedTiles&)> draw;
+  /// Shades the drawn numbers of objects. Requires GL_DEPTH_TEST.
+  std::function<void(const FrameUniforms&, std::span<const PixelRect>)> shade_objects;
 };
 
 /// The lens of a Composer, and how much of its last image was out of focus.
@@ -34,8 +43,12 @@ class LensDrawing {
     lens_ = lens;
     places_ = places;
   }
-  /// As Composer::LargestCircle_px().
-  double largest_circle_px() const { return largest_circle_px_; }
+  /// As Composer::DrawnLens().
+  const LensFigures& figures() const { return figures_; }
+
+  /// Pixels by which the lens spreads objects in these bounds. 0: they are in focus.
+  int AssumedSpread_px(const RenderCamera& camera, const shadows::View& view,
+                       const shadows::Box& objects) const;
 
   /// Draws the image anew as the lens shows it, if anything is out of focus. The pinhole image must
   /// be drawn. `tiles`: those of that image, then those of the lens. Returns the real surfaces that
@@ -44,9 +57,14 @@ class LensDrawing {
                                     const shadows::View& view, AffectedTiles* tiles);
 
  private:
+  /// Sets the figures of the drawn pinhole image, and returns its spread. Errors as
+  /// LensViews::Create().
+  Result<int> Measure(Canvas& canvas, const LensFrame& lens, double camera_fx,
+                      const ImageTiles& drawn);
+
   std::optional<ThinLens> lens_;
-  int places_ = 1;
-  double largest_circle_px_ = 0.0;
+  int places_ = kByLayers;
+  LensFigures figures_;
 };
 
 }  // namespace pleinair::compositor

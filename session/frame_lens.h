@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "compositor/lens/lens_figures.h"
 #include "compositor/lens/thin_lens.h"
 #include "scene/scene_description.h"
 
@@ -21,7 +22,8 @@ struct DefocusOptions {
   DefocusMode mode = DefocusMode::kAuto;
   std::optional<double> focus_dioptres;
   std::optional<double> aperture_m;
-  int places = 32;  ///< On the stop, drawn one after another, 1…1024.
+  /// On the stop, drawn one after another, 1…1024, or compositor::kByLayers.
+  int places = compositor::kByLayers;
 };
 
 /// Which of them is in use.

@@ -63,7 +63,7 @@ struct CameraSummary {
   DefocusSource defocus = DefocusSource::kOff;
   std::optional<compositor::ThinLens> lens;  ///< At the last frame.
   int lens_places = 0;                       ///< DefocusOptions::places.
-  double largest_circle_px = 0.0;            ///< Over all frames so far.
+  compositor::LensFigures drawn_lens;        ///< The largest of all frames so far.
 };
 
 /// Light of a frame: sun, sky and exposure.

@@ -384,8 +384,11 @@ Result<RgbImage> SceneRenderer::Render(CameraImageView image,
   const auto start = Clock::now();
   PLEINAIR_ASSIGN_OR_RETURN(RgbImage composed,
                             composer_->Compose(image, camera_from_marker, summary_.exposure_scale));
-  summary_.camera.largest_circle_px =
-      std::max(summary_.camera.largest_circle_px, composer_->LargestCircle_px());
+  const compositor::LensFigures drawn = composer_->DrawnLens();
+  compositor::LensFigures& most = summary_.camera.drawn_lens;
+  most.largest_circle_px = std::max(most.largest_circle_px, drawn.largest_circle_px);
+  most.layers = std::max(most.layers, drawn.layers);
+  most.peels = std::max(most.peels, drawn.peels);
   compositor::PutInFront(image.rgb(),
                          compositor::MaskOccluder(image.rgb(), camera_, camera_from_marker, cover),
                          &composed);

@@ -44,7 +44,8 @@ void AddDefocusOptions(CLI::App& command, DefocusArguments& arguments) {
       ->type_name("D");
   command
       .add_option("--defocus-method", arguments.method,
-                  "lens:N draws through N places on the stop, 1 to 1024; default lens:32")
+                  "layered spreads each surface over its circle of confusion (default); lens:N "
+                  "draws through N places on the stop, 1 to 1024: slow, the reference")
       ->type_name("METHOD");
 }
 
@@ -77,12 +78,13 @@ Result<void> ParseDefocus(const DefocusArguments& arguments, session::DefocusOpt
   }
   if (arguments.method.empty()) return {};
   if (is_off) return has_no_effect("--defocus-method");
+  if (arguments.method == "layered") return {};
   const std::string_view method = arguments.method;
   const std::optional<int> places =
       method.starts_with(kLens) ? IntegerIn(method.substr(kLens.size())) : std::nullopt;
   if (!places || *places < 1 || *places > kMaxPlaces) {
     return InputError("--defocus-method", "is unknown: " + arguments.method.substr(0, 64),
-                      "write lens:1 to lens:1024");
+                      "write layered, or lens:1 to lens:1024");
   }
   defocus->places = *places;
   return {};

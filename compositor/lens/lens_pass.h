@@ -5,7 +5,10 @@
 #include <span>
 
 #include "base/error.h"
+#include "compositor/lens/layered_lens.h"
+#include "compositor/lens/lens_figures.h"
 #include "compositor/lens/lens_views.h"
+#include "compositor/lens/pinhole_capture.h"
 #include "compositor/lens/real_occluders.h"
 #include "compositor/passes/render_camera.h"
 #include "compositor/passes/render_targets.h"
@@ -18,10 +21,10 @@ namespace pleinair::compositor {
 class LensPass {
  public:
   /// Smaller circles of confusion are not drawn, camera pixels.
-  static constexpr double kMinCircle_px = 0.3;
+  static constexpr double kMinCircle_px = DiscKernels::kMinCircle_px;
 
   /// Returns the diameter of the largest circle of confusion over all that virtual objects affect
-  /// in the drawn `targets`, render pixels. Errors as LensViews::Create().
+  /// in the drawn `targets`, render pixels. Errors as PinholeCapture::Create().
   Result<double> LargestCircle_px(const RenderTargets& targets, const LensFrame& lens_frame,
                                   const RenderCamera& camera, const ImageTiles& drawn);
 
@@ -29,9 +32,20 @@ class LensPass {
   /// may have a larger circle than all that it shows: an eighth and two pixels are added.
   static int Spread_px(double circle_px);
 
-  /// As LensViews::Draw(). Call LargestCircle_px() first.
-  void Draw(const RenderTargets& targets, const LensFrame& lens_frame,
-            std::span<const PixelRect> within, const LensViews::DrawFrame& draw) const;
+  /// Replaces the drawn image in `targets` by that of the lens. Call LargestCircle_px() first.
+  /// `camera`: that of the targets. `bind_frame` as OccludersIn(). Sets
+  /// the layers and peels of `figures`. Returns as that, too. Errors as PinholeCapture::Create()
+  /// and RealOccluders::Create().
+  Result<const RealOccluders*> DrawLayers(RenderTargets& targets, const LensFrame& lens_frame,
+                                          const RenderCamera& camera,
+                                          std::span<const PixelRect> within,
+                                          const ObjectDrawing& objects,
+                                          const std::function<void()>& bind_frame,
+                                          LensFigures* figures);
+
+  /// As LensViews::Draw(). Errors as LensViews::Create().
+  Result<void> Draw(const RenderTargets& targets, const LensFrame& lens_frame,
+                    std::span<const PixelRect> within, const LensViews::DrawFrame& draw);
 
   /// Real surfaces that cover objects over a part of the lens, after Draw(); null without any.
   /// `draw_real`: as LensViews::MeasureOccluders(). `bind_frame` has to bind the camera image, as
@@ -43,7 +57,15 @@ class LensPass {
                                            const std::function<void()>& bind_frame);
 
  private:
+  Result<const RealOccluders*> Occluders(const gl::GlTexture& share,
+                                         std::span<const PixelRect> within,
+                                         const std::function<void()>& bind_frame);
+
+  std::optional<PinholeCapture> capture_;
   std::optional<LensViews> views_;
+  PinholeImage pinhole_;
+  LayeredLens layers_;
+  gl::GlTexture occluder_share_;  // On first use.
   std::optional<RealOccluders> occluders_;
 };
 

@@ -29,9 +29,7 @@ Result<LensViews> LensViews::Create(int width, int height) {
   for (gl::GlTexture* sum : {&views.sums_.ratio, &views.sums_.objects}) {
     PLEINAIR_ASSIGN_OR_RETURN(*sum, gl::GlTexture::Create2D(GL_RGBA32F, width, height));
   }
-  for (gl::GlTexture* pair : {&views.sums_.distance, &views.range_}) {
-    PLEINAIR_ASSIGN_OR_RETURN(*pair, gl::GlTexture::Create2D(GL_RG32F, width, height));
-  }
+  PLEINAIR_ASSIGN_OR_RETURN(views.sums_.distance, gl::GlTexture::Create2D(GL_RG32F, width, height));
   for (gl::GlTexture* single : {&views.sums_.share, &views.virtual_}) {
     PLEINAIR_ASSIGN_OR_RETURN(*single, gl::GlTexture::Create2D(GL_R32F, width, height));
   }
@@ -41,41 +39,16 @@ Result<LensViews> LensViews::Create(int width, int height) {
           {{{&views.sums_.ratio}, {&views.sums_.objects}, {&views.sums_.distance}}, {}}));
   PLEINAIR_ASSIGN_OR_RETURN(views.sums_.occluders,
                             gl::GlFramebuffer::Create({{{&views.sums_.share}}, {}}));
-  PLEINAIR_ASSIGN_OR_RETURN(views.range_target_,
-                            gl::GlFramebuffer::Create({{{&views.range_}}, {}}));
   const auto create = [](const char* fragment) {
     return gl::GlProgram::Create(
         {.vertex = "compositor/shaders/screen_triangle.vert", .fragment = fragment});
   };
-  PLEINAIR_ASSIGN_OR_RETURN(views.programs_.affected,
-                            create("compositor/shaders/lens_affected.frag"));
   PLEINAIR_ASSIGN_OR_RETURN(views.programs_.view, create("compositor/shaders/lens_view.frag"));
   PLEINAIR_ASSIGN_OR_RETURN(views.programs_.copy, create("compositor/shaders/place_mean.frag"));
   PLEINAIR_ASSIGN_OR_RETURN(views.programs_.occluders,
                             create("compositor/shaders/lens_occluders.frag"));
   views.no_attributes_ = gl::GlVertexArray::Create();
   return views;
-}
-
-LensViews::Range LensViews::AffectedDioptres(const RenderTargets& targets,
-                                             const shadows::View& view,
-                                             std::span<const PixelRect> within) const {
-  range_target_.Bind();
-  range_target_.ClearColor(0, 1e30F, -1e30F, 0, 0);
-  no_attributes_.Bind();
-  targets.depth().Bind(0);
-  targets.ratio().Bind(1);
-  targets.objects().Bind(2);
-  programs_.affected.Use();
-  SetLensDepth(programs_.affected, view, targets.samples());
-  DrawWithin(within);
-  const Image<float> ranges = Downloaded(range_, GL_RG, 2);
-  Range all;
-  for (std::size_t i = 0; i < ranges.size(); i += 2) {
-    all.min = std::min(all.min, ranges.data()[i]);
-    all.max = std::max(all.max, ranges.data()[i + 1]);
-  }
-  return all;
 }
 
 void LensViews::AddPlaces(const RenderTargets& targets, const LensFrame& lens_frame,

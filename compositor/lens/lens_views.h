@@ -39,14 +39,6 @@ class LensViews {
   /// gl::GlProgram::Create().
   static Result<LensViews> Create(int width, int height);
 
-  /// Smallest and largest reciprocal distance, 1/m. `min` is the larger one without any.
-  struct Range {
-    float min = 1e30F, max = -1e30F;
-  };
-  /// Returns the range of all that virtual objects affect in the drawn `targets`.
-  Range AffectedDioptres(const RenderTargets& targets, const shadows::View& view,
-                         std::span<const PixelRect> within) const;
-
   /// Calls `draw` for each place on the stop. It has to draw targets.ratio() and targets.objects(),
   /// which have the means afterwards. `within`: all pixels drawn, in disjoint rectangles.
   void Draw(const RenderTargets& targets, const LensFrame& lens_frame,
@@ -74,12 +66,11 @@ class LensViews {
     gl::GlFramebuffer pictures, occluders;
   };
   struct Programs {
-    gl::GlProgram affected, view, copy, occluders;
+    gl::GlProgram view, copy, occluders;
   };
 
   Sums sums_;
-  gl::GlTexture range_, virtual_;
-  gl::GlFramebuffer range_target_;
+  gl::GlTexture virtual_;
   Programs programs_;
   gl::GlVertexArray no_attributes_;
 };

@@ -121,4 +121,9 @@ void RenderTargets::BeginPass(bool back) const {
   framebuffers_.pass.ClearColor(1, 0, 0, 0, 0);
 }
 
+void RenderTargets::Replace(const Image<float>& ratio, const Image<float>& objects) {
+  picture_.ratio.Upload(GL_RGBA, GL_FLOAT, ratio.data());
+  picture_.objects.Upload(GL_RGBA, GL_FLOAT, objects.data());
+}
+
 }  // namespace pleinair::compositor

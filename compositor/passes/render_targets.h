@@ -3,6 +3,7 @@
 #include <span>
 
 #include "base/error.h"
+#include "base/image.h"
 #include "compositor/surfaces/image_tiles.h"
 #include "gl/framebuffer.h"
 #include "gl/texture.h"
@@ -40,6 +41,8 @@ class RenderTargets {
   /// Directs drawing to the targets of a pass over ratio() and objects(), cleared as ratio()
   /// with alpha 0 and objects(). If `back`, from those into ratio() and objects(), not cleared.
   void BeginPass(bool back) const;
+  /// Replaces ratio() and objects(), four channels each.
+  void Replace(const Image<float>& ratio, const Image<float>& objects);
   const gl::GlTexture& passed_ratio() const { return passed_.ratio; }
   const gl::GlTexture& passed_objects() const { return passed_.objects; }
 

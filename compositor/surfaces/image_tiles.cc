@@ -225,6 +225,20 @@ PixelRect ImageTiles::Bounds() const {
   return {low.x, low.y, high.x - low.x, high.y - low.y};
 }
 
+std::vector<PixelRect> TilesOf(std::span<const PixelRect> rectangles) {
+  constexpr int kSide = ImageTiles::kSide_px;
+  std::vector<PixelRect> tiles;
+  for (const PixelRect& rect : rectangles) {
+    for (int y = rect.y; y < rect.y + rect.height; y += kSide) {
+      for (int x = rect.x; x < rect.x + rect.width; x += kSide) {
+        tiles.push_back({x, y, std::min(kSide, rect.x + rect.width - x),
+                         std::min(kSide, rect.y + rect.height - y)});
+      }
+    }
+  }
+  return tiles;
+}
+
 void DrawWithin(std::span<const PixelRect> rectangles) {
   glEnable(GL_SCISSOR_TEST);
   for (const PixelRect& r : rectangles) {

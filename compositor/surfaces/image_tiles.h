@@ -75,6 +75,9 @@ class ImageTiles {
   std::vector<char> included_;  // Row by row.
 };
 
+/// Splits rectangles of whole tiles into these.
+std::vector<PixelRect> TilesOf(std::span<const PixelRect> rectangles);
+
 /// Tiles that virtual objects affect.
 struct AffectedTiles {
   ImageTiles objects;  ///< With objects in them.

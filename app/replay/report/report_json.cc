@@ -148,18 +148,21 @@ Json SamplesOf(const ReplayedFilm& film) {
 /// The lens that the objects are seen through.
 Json LensJson(const session::CameraSummary& drawn) {
   const bool is_drawn = drawn.lens.has_value();
+  const bool is_by_layers = is_drawn && drawn.lens_places == compositor::kByLayers;
   const double focus = is_drawn ? drawn.lens->focus_dioptres : 0.0;
   return {
       {"defocus", session::NameOf(drawn.defocus)},
-      {"method", is_drawn ? Json("lens:" + std::to_string(drawn.lens_places)) : Json()},
+      {"method", !is_drawn      ? Json()
+                 : is_by_layers ? Json("layered")
+                                : Json("lens:" + std::to_string(drawn.lens_places))},
       {"focus_m", IfKnown(focus > 0.0, 1.0 / focus)},
       {"aperture_mm", IfKnown(is_drawn, is_drawn ? 1e3 * drawn.lens->aperture_m : 0.0)},
       {"focus_dioptres_error", Json()},
       {"aperture_relative_error", Json()},
       {"in_focus_blur_px", IfKnown(is_drawn && drawn.look, drawn.look ? drawn.look->blur_px : 0.0)},
-      {"largest_blur_px", Rounded(drawn.largest_circle_px)},
-      {"layers", Json()},
-      {"peels", Json()}};
+      {"largest_blur_px", Rounded(drawn.drawn_lens.largest_circle_px)},
+      {"layers", is_by_layers ? Json(drawn.drawn_lens.layers) : Json()},
+      {"peels", is_by_layers ? Json(drawn.drawn_lens.peels) : Json()}};
 }
 
 Json LightJson(const session::LightSummary& light) {

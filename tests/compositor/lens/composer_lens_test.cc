@@ -32,7 +32,7 @@ struct Board {
 };
 
 struct Drawing {
-  int places = 1;  // On the stop.
+  int places = 1;  // On the stop, or kByLayers.
   ComposerOptions options;
 };
 
@@ -40,6 +40,7 @@ RgbImage ComposeThrough(const std::vector<Board>& boards, const RgbImage& pictur
                         const CameraModel& camera, const std::optional<ThinLens>& lens,
                         const Drawing& drawn, double* largest_px = nullptr) {
   std::vector<PlacedModel> scene;
+  scene.reserve(boards.size());
   for (const Board& board : boards) scene.push_back(board.Placed());
   const auto solver = LightSolver::Create(scene, {.rays_per_vertex = 64});
   auto created = Composer::Create(camera, scene, drawn.options);
@@ -53,7 +54,7 @@ RgbImage ComposeThrough(const std::vector<Board>& boards, const RgbImage& pictur
   auto image = composer->Compose(picture.view(), kFromAbove,
                                  {kExposureScale, kExposureScale, kExposureScale});
   if (!image) ADD_FAILURE() << image.error().Message();
-  if (largest_px != nullptr) *largest_px = composer->LargestCircle_px();
+  if (largest_px != nullptr) *largest_px = composer->DrawnLens().largest_circle_px;
   return *std::move(image);
 }
 
@@ -63,8 +64,9 @@ double Traced(const std::vector<Board>& boards, double background, const CameraM
               const ThinLens& lens, int x, int y, bool with_virtual = true) {
   double sum = 0.0;
   for (int i = 0; i < 1024; ++i) {
-    const double r = std::sqrt((i % 32 + 0.5) / 32.0) * lens.aperture_m / 2;
-    const double angle = 2 * std::numbers::pi * (i / 32 + 0.5) / 32.0;
+    const int ring = i % 32, ray = i / 32;
+    const double r = std::sqrt((ring + 0.5) / 32.0) * lens.aperture_m / 2;
+    const double angle = 2 * std::numbers::pi * (ray + 0.5) / 32.0;
     const double u = r * std::cos(angle), v = r * std::sin(angle);
     const double dx = std::fmod(i * 0.7548776662466927, 1.0) - 0.5;
     const double dy = std::fmod(i * 0.5698402909980532, 1.0) - 0.5;
@@ -102,12 +104,18 @@ const CameraModel kSmall{.width = 128, .height = 96, .fx = 300, .fy = 300, .cx =
 TEST(ComposerLens, DrawsTheEdgeOfADisc) {
   // Its right edge runs through the image's centre.
   const Board board{-2, -2, 0, 2, 2.0, 1.0F};
-  for (const double circle_px : {2.0, 8.0, 40.0}) {
+  for (const auto& [circle_px, places] : std::vector<std::pair<double, int>>{{2.0, 96},
+                                                                             {8.0, 96},
+                                                                             {40.0, 96},
+                                                                             {2.0, kByLayers},
+                                                                             {3.3, kByLayers},
+                                                                             {8.0, kByLayers},
+                                                                             {40.0, kByLayers}}) {
     const double focus_dioptres = 1.0, aperture_m = circle_px / (kSmall.fx * 0.5);
     double largest_px = 0.0;
     const RgbImage image =
         ComposeThrough({board}, Even(kSmall, 0), kSmall, ThinLens{aperture_m, focus_dioptres},
-                       Through(96), &largest_px);
+                       Through(places), &largest_px);
     EXPECT_NEAR(largest_px, circle_px, 1e-3 * circle_px);
     double squares = 0.0;
     int count = 0;
@@ -138,21 +146,24 @@ TEST(ComposerLens, EqualsTheTracedLensWhereBoardsCross) {
   const std::vector<Board> boards{{-0.30, -0.05, -0.02, 0.10, at(8), 0.8F},
                                   {-0.12, -0.20, 0.05, 0.03, at(3.5), 0.3F},
                                   {-0.20, -0.10, 0.25, 0.25, at(0), 0.6F}};
-  const RgbImage image = ComposeThrough(boards, Even(kSmall, 0), kSmall, lens, Through(64, 16));
-  double squares = 0.0;
-  int count = 0, far_off = 0;
-  for (int y = 0; y < kSmall.height; ++y) {
-    for (int x = 0; x < kSmall.width; ++x) {
-      const double truth = Traced(boards, 0.0, kSmall, lens, x, y);
-      const double error = LinearFromSrgb8()[image(x, y, 0)] - truth;
-      squares += error * error;
-      far_off += std::fabs(error) > 0.05 ? 1 : 0;
-      ++count;
+  for (const int places : {64, kByLayers}) {
+    const RgbImage image =
+        ComposeThrough(boards, Even(kSmall, 0), kSmall, lens, Through(places, 16));
+    double squares = 0.0;
+    int count = 0, far_off = 0;
+    for (int y = 0; y < kSmall.height; ++y) {
+      for (int x = 0; x < kSmall.width; ++x) {
+        const double truth = Traced(boards, 0.0, kSmall, lens, x, y);
+        const double error = LinearFromSrgb8()[image(x, y, 0)] - truth;
+        squares += error * error;
+        far_off += std::fabs(error) > 0.05 ? 1 : 0;
+        ++count;
+      }
     }
+    // All of this small image lies near silhouettes. The contrast is 0.8.
+    EXPECT_LT(std::sqrt(squares / count) / 0.8, places == kByLayers ? 0.010 : 0.006);
+    EXPECT_LT(far_off, 0.005 * count);
   }
-  // All of this small image lies near silhouettes. The contrast is 0.8.
-  EXPECT_LT(std::sqrt(squares / count) / 0.8, 0.006);
-  EXPECT_LT(far_off, 0.005 * count);
 }
 
 TEST(ComposerLens, CoversObjectsSoftlyByBlurredRealOccluders) {
@@ -175,23 +186,25 @@ TEST(ComposerLens, CoversObjectsSoftlyByBlurredRealOccluders) {
       }
     }
   }
-  const RgbImage image = ComposeThrough(boards, frame, kSmall, lens, Through(64));
-  double squares = 0.0;
-  int worst = 0, count = 0;
-  for (int y = 0; y < kSmall.height; ++y) {
-    for (int x = 0; x < kSmall.width; ++x) {
-      // Off the board's own sharp edges, which antialiasing decides.
-      const double board_x = 2.0 * (x - kSmall.cx) / kSmall.fx;
-      const double board_y = -2.0 * (y - kSmall.cy) / kSmall.fy;
-      if (std::fabs(board_x - 0.11) < 0.01 || std::fabs(board_y - 0.12) < 0.01) continue;
-      const int error = image(x, y, 1) - truth(x, y, 1);
-      squares += error * error;
-      worst = std::max(worst, std::abs(error));
-      ++count;
+  for (const int places : {64, kByLayers}) {
+    const RgbImage image = ComposeThrough(boards, frame, kSmall, lens, Through(places));
+    double squares = 0.0;
+    int worst = 0, count = 0;
+    for (int y = 0; y < kSmall.height; ++y) {
+      for (int x = 0; x < kSmall.width; ++x) {
+        // Off the board's own sharp edges, which antialiasing decides.
+        const double board_x = 2.0 * (x - kSmall.cx) / kSmall.fx;
+        const double board_y = -2.0 * (y - kSmall.cy) / kSmall.fy;
+        if (std::fabs(board_x - 0.11) < 0.01 || std::fabs(board_y - 0.12) < 0.01) continue;
+        const int error = image(x, y, 1) - truth(x, y, 1);
+        squares += error * error;
+        worst = std::max(worst, std::abs(error));
+        ++count;
+      }
     }
+    EXPECT_LT(std::sqrt(squares / count), 4.0);
+    EXPECT_LE(worst, 8);
   }
-  EXPECT_LT(std::sqrt(squares / count), 4.0);
-  EXPECT_LE(worst, 8);
 }
 
 TEST(ComposerLens, LeavesWhatIsInFocusAsItIs) {
@@ -205,29 +218,33 @@ TEST(ComposerLens, LeavesWhatIsInFocusAsItIs) {
   std::vector<Board> both = boards;
   both.push_back({0.16, -0.1, 0.25, 0.1, 1.5, 0.2F});
   double largest_px = 0.0;
-  const RgbImage drawn =
-      ComposeThrough(both, Even(kSmall, 90), kSmall, ThinLens{0.02, 0.5}, Through(32), &largest_px);
-  EXPECT_GT(largest_px, 0.9);
-  for (int y = 0; y < kSmall.height; ++y) {
-    for (int x = 0; x < 90; ++x) EXPECT_NEAR(drawn(x, y, 0), off(x, y, 0), 1);
+  for (const int places : {32, kByLayers}) {
+    const RgbImage drawn = ComposeThrough(both, Even(kSmall, 90), kSmall, ThinLens{0.02, 0.5},
+                                          Through(places), &largest_px);
+    EXPECT_GT(largest_px, 0.9);
+    for (int y = 0; y < kSmall.height; ++y) {
+      for (int x = 0; x < 90; ++x) EXPECT_NEAR(drawn(x, y, 0), off(x, y, 0), 1);
+    }
   }
 }
 
 TEST(ComposerLens, DrawsTheStopsShape) {
   // A small bright board far out of focus has the shape of the stop, mirrored before the focus.
   const std::vector<Board> boards{{-0.004, -0.004, 0.004, 0.004, 1.0, 1.0F}};
-  const RgbImage image =
-      ComposeThrough(boards, Even(kSmall, 0), kSmall, ThinLens{0.2, 0.5, {3, 0.0}}, Through(512));
-  // A circle of 30 pixels: its corner is 15 from the centre, the side opposite 7.5.
-  const auto reach = [&](int step) {
-    int last = 0;
-    for (int i = 0; i < 60; ++i) {
-      if (image(64 + step * i, 48, 0) > 10) last = i;
-    }
-    return last;
-  };
-  EXPECT_NEAR(reach(-1), 15, 2);
-  EXPECT_NEAR(reach(1), 8, 2);
+  for (const int places : {512, kByLayers}) {
+    const RgbImage image = ComposeThrough(boards, Even(kSmall, 0), kSmall,
+                                          ThinLens{0.2, 0.5, {3, 0.0}}, Through(places));
+    // A circle of 30 pixels: its corner is 15 from the centre, the side opposite 7.5.
+    const auto reach = [&](int step) {
+      int last = 0;
+      for (int i = 0; i < 60; ++i) {
+        if (image(64 + step * i, 48, 0) > 10) last = i;
+      }
+      return last;
+    };
+    EXPECT_NEAR(reach(-1), 15, 2);
+    EXPECT_NEAR(reach(1), 8, 2);
+  }
 }
 
 }  // namespace
