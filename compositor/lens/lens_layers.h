@@ -18,9 +18,9 @@ inline int LayerOf(double signed_circle_px) {
   const double circle = std::fabs(signed_circle_px);
   const double place =
       circle <= kEven_px ? circle : kEven_px + std::log(circle / kEven_px) / std::log(1.25);
+  constexpr int kInFocus = kLensLayers / 2;
   // To the nearest layer: half a layer is added before the fraction is cut.
-  const int layer =
-      static_cast<int>(kLensLayers / 2 + 0.5 + std::copysign(place, signed_circle_px));
+  const int layer = static_cast<int>(kInFocus + 0.5 + std::copysign(place, signed_circle_px));
   return std::clamp(layer, 0, kLensLayers - 1);
 }
 
