@@ -127,7 +127,9 @@ Result<ZonedTime> ParseWithoutZone(std::string_view text) {
   Result<UtcTime> time = UtcTime::Parse(text);
   if (time) return ZonedTime{*time, WrittenOffset(text)};
   if (UtcTime::Parse(std::string(text) + "Z")) {
-    time.error().remedy += ", or name its zone, for example 2025-09-14T13:05:00[Europe/Prague]";
+    time.error().remedy =
+        "add its offset, " + std::string(text.substr(0, 40)) +
+        "+02:00, or Z for UTC, or name its zone, for example 2025-09-14T13:05:00[Europe/Prague]";
   }
   return tl::make_unexpected(std::move(time).error());
 }

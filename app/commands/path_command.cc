@@ -33,16 +33,35 @@ struct PathArguments {
   bool json = false;
 };
 
-Result<exports::TrajectoryFormat> FormatOf(const std::string& stated, const std::string& file) {
+Result<exports::TrajectoryFormat> FormatToRead(const std::string& stated, const std::string& file) {
   if (const auto named = exports::TrajectoryFormatNamed(stated)) return *named;
-  return exports::TrajectoryFormatOf(file);
+  auto format = exports::TrajectoryFormatToRead(file);
+  if (format && *format == exports::TrajectoryFormat::kRecord3d && file.ends_with("report.json")) {
+    return InputError(file, "is a report of pleinair, not a trajectory",
+                      "name one of the files in the folder poses beside it");
+  }
+  return format;
+}
+
+Result<exports::TrajectoryFormat> FormatToWrite(const std::string& stated,
+                                                const std::string& file) {
+  using exports::TrajectoryFormat;
+  if (const auto named = exports::TrajectoryFormatNamed(stated)) return *named;
+  constexpr const char* kRemedy =
+      "name it .tum, .csv, .glb, .gltf or .mcap or a new folder (COLMAP), or state it with --to";
+  const auto format = exports::TrajectoryFormatOf(file);
+  if (!format) return InputError(file, "has a name without a format that can be written", kRemedy);
+  if (*format == TrajectoryFormat::kRecord3d || *format == TrajectoryFormat::kStray) {
+    return InputError(file, "is or names a trajectory of another app, which is only read", kRemedy);
+  }
+  return *format;
 }
 
 Result<void> RunPath(const PathArguments& arguments) {
   PLEINAIR_ASSIGN_OR_RETURN(const exports::TrajectoryFormat from,
-                            FormatOf(arguments.from, arguments.input));
+                            FormatToRead(arguments.from, arguments.input));
   PLEINAIR_ASSIGN_OR_RETURN(const exports::TrajectoryFormat to,
-                            FormatOf(arguments.to, arguments.output));
+                            FormatToWrite(arguments.to, arguments.output));
   exports::TrajectoryReading reading;
   reading.frame_rate_hz = arguments.frame_rate_hz;
   if (!arguments.extrinsics.empty()) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "app/calibrate/film_lens.h"
+#include "app/replay/given_trajectory.h"
 #include "app/terminal/interrupt.h"
 #include "devices/calibration/fitted_camera.h"
 #include "devices/images/image_file.h"
@@ -67,10 +68,8 @@ Result<KnownLens> LensFor(const LookedAtFile& opened, const FilmLook& look,
   auto fitted = devices::FitCamera(options.lens->camera, opened.size, opened.clockwise_deg,
                                    look.file.string());
   if (!fitted && options.lens->is_by_trajectory) {
-    Error error = std::move(fitted).error();
-    error.what += "; it is that of " + options.lens->from;
-    error.remedy = "name the film that belongs to it, or give the film's lens with --calibration";
-    return tl::make_unexpected(std::move(error));
+    return tl::make_unexpected(
+        OtherLensThanTrajectorys(std::move(fitted).error(), options.lens->from));
   }
   if (!fitted) return tl::make_unexpected(std::move(fitted).error());
   return KnownLens{fitted->camera, options.lens->from, std::move(fitted->note)};

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <chrono>
+#include <iostream>
 #include <optional>
 #include <utility>
 
@@ -138,7 +140,7 @@ Result<NewProject> MakeProject(const NewProjectRequest& request, Questions* ques
   if (request.stated.model && !fs::is_regular_file(*request.stated.model, error)) {
     return InputError(request.stated.model->string(), "is no file", "check the name of the model");
   }
-  std::optional<InterruptGuard> guard(std::in_place);
+  const InterruptGuard guard;
   std::optional<InterruptDeadline> deadline(std::in_place, request.folder.string(), [] {});
   PLEINAIR_ASSIGN_OR_RETURN(const std::vector<fs::path> sources, InOrder(request.files));
   if (questions == nullptr) {
@@ -147,8 +149,12 @@ Result<NewProject> MakeProject(const NewProjectRequest& request, Questions* ques
   PLEINAIR_ASSIGN_OR_RETURN(const Footage footage, LookAtAll(request, sources));
   PLEINAIR_RETURN_IF_ERROR(CheckInterrupt(request.folder.string()));
   deadline.reset();
-  // Ctrl-C ends the program while it waits for an answer.
-  if (questions != nullptr) guard.reset();
+  if (questions != nullptr) {
+    // An answer is waited for on the terminal's last line.
+    deadline.emplace(
+        request.folder.string(), [] { std::cerr << '\n'; }, "nothing was written",
+        std::chrono::milliseconds(0));
+  }
   PLEINAIR_ASSIGN_OR_RETURN(NewScene scene, CollectScene(footage, request.stated, questions));
   ProjectFiles files;
   PLEINAIR_ASSIGN_OR_RETURN(files.scene_toml, NewSceneToml(scene, request.folder));
@@ -161,7 +167,6 @@ Result<NewProject> MakeProject(const NewProjectRequest& request, Questions* ques
                             NewRecordingJson(footage.film.file, footage.film.lens, request.folder));
   PLEINAIR_ASSIGN_OR_RETURN(const scene::SceneDescription description,
                             Understand(files.scene_toml, request.folder));
-  if (!guard) guard.emplace();
   deadline.emplace(request.folder.string(), [] {});
   PLEINAIR_ASSIGN_OR_RETURN(
       FirstPicture picture,

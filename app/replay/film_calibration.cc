@@ -9,7 +9,9 @@
 #include "app/replay/given_trajectory.h"
 #include "base/atomic_file.h"
 #include "devices/calibration/calibration_text.h"
+#include "devices/calibration/fitted_camera.h"
 #include "devices/images/image_file.h"
+#include "devices/recordings/video_file.h"
 #include "files/text_file.h"
 #include "scene/scene_facts.h"
 
@@ -33,6 +35,15 @@ Result<std::optional<scene::TrajectoryDescription>> TrajectoryNamed(const Replay
   return std::move(facts.trajectory);
 }
 
+/// Errors: the film has images of another shape than the lens; those of OpenVideo().
+Result<void> CheckFits(const CameraModel& lens, const std::filesystem::path& film,
+                       const std::string& from) {
+  PLEINAIR_ASSIGN_OR_RETURN(const devices::OpenedVideo video, devices::OpenVideo(film, {}));
+  auto fitted = devices::FitCamera(lens, video.size, video.facts.clockwise_deg, film.string());
+  if (fitted) return {};
+  return tl::make_unexpected(OtherLensThanTrajectorys(std::move(fitted).error(), from));
+}
+
 /// The lens with which a trajectory was estimated; nothing if it has none, or one of turned images.
 Result<std::optional<FilmCalibration>> CalibrateFromTrajectory(const ReplayOptions& options,
                                                                const OutputFolder& folder) {
@@ -40,11 +51,13 @@ Result<std::optional<FilmCalibration>> CalibrateFromTrajectory(const ReplayOptio
   if (!trajectory || trajectory->turn_deg != 0) return std::nullopt;
   PLEINAIR_ASSIGN_OR_RETURN(const exports::CameraTrajectory path, ReadTrajectoryFile(*trajectory));
   if (!path.camera) return std::nullopt;
+  const std::string from = "the trajectory " + trajectory->file.string();
+  PLEINAIR_RETURN_IF_ERROR(CheckFits(*path.camera, options.recording, from));
   PLEINAIR_ASSIGN_OR_RETURN(const std::string text,
                             devices::CalibrationText(*path.camera, devices::CalibrationForm::kOwn));
-  FilmCalibration calibration{folder.staging() / "camera_from_trajectory.json",
-                              "No calibration was given. The lens is that of the trajectory " +
-                                  trajectory->file.string() + " (camera_from_trajectory.json)."};
+  FilmCalibration calibration{
+      folder.staging() / "camera_from_trajectory.json",
+      "No calibration was given. The lens is that of " + from + " (camera_from_trajectory.json)."};
   PLEINAIR_RETURN_IF_ERROR(WriteFileAtomically(calibration.file, text));
   return calibration;
 }

@@ -30,7 +30,7 @@ Mat3 ImageFromFrame(int turn_deg) {
 }
 
 Result<TrajectoryFormat> FormatOfTrajectory(const scene::TrajectoryDescription& description) {
-  if (description.format.empty()) return exports::TrajectoryFormatOf(description.file);
+  if (description.format.empty()) return exports::TrajectoryFormatToRead(description.file);
   if (const auto named = exports::TrajectoryFormatNamed(description.format)) return *named;
   return InputError(description.file.string(),
                     "has the unknown format \"" + description.format + "\"",
@@ -107,6 +107,12 @@ Result<session::TrajectoryRequest> ReadGivenTrajectory(
     }
   }
   return request;
+}
+
+Error OtherLensThanTrajectorys(Error error, const std::string& lens_from) {
+  error.what += "; it is that of " + lens_from;
+  error.remedy = "name the film that belongs to it, or give the film's lens with --calibration";
+  return error;
 }
 
 std::optional<std::int64_t> ClockStartOf(const devices::Frame& first) {

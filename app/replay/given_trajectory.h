@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "base/error.h"
 #include "devices/frame.h"
@@ -25,5 +26,8 @@ Result<session::TrajectoryRequest> ReadGivenTrajectory(
 /// The time of a recording's start by the camera's own clock, nanoseconds, from its first frame;
 /// nothing if that has no stamp of the device. A trajectory may share this clock.
 std::optional<std::int64_t> ClockStartOf(const devices::Frame& first);
+
+/// An error of FitCamera() about a trajectory's lens, with where that lens is from.
+Error OtherLensThanTrajectorys(Error error, const std::string& lens_from);
 
 }  // namespace pleinair::app

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <functional>
 #include <mutex>
@@ -13,11 +14,15 @@ namespace pleinair::app {
 /// million triangles. Work that returns sooner ends as usual. Needs an InterruptGuard.
 class InterruptDeadline {
  public:
+  static constexpr std::chrono::milliseconds kGrace{800};
+
   /// `work`: name of the work in the message. `clean_up` removes unfinished outputs. It runs on a
   /// thread of its own while the work goes on. After it, the program ends with exit code 1.
-  /// `outcome` ends the message.
+  /// `outcome` ends the message. `grace`: time for the work to end by itself; zero while the
+  /// program waits for a person's answer.
   InterruptDeadline(std::string work, std::function<void()> clean_up,
-                    std::string outcome = "nothing was written");
+                    std::string outcome = "nothing was written",
+                    std::chrono::milliseconds grace = kGrace);
   /// Stops watching: the work has ended, or enters a step that must not be interrupted.
   ~InterruptDeadline();
   InterruptDeadline(const InterruptDeadline&) = delete;
@@ -28,6 +33,7 @@ class InterruptDeadline {
 
   std::string work_, outcome_;
   std::function<void()> clean_up_;
+  std::chrono::milliseconds grace_;
   std::mutex mutex_;
   std::condition_variable changed_;
   bool done_ = false;

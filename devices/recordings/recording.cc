@@ -206,6 +206,12 @@ Result<Recording> OpenOwnFolder(const fs::path& folder, const RecordingOptions& 
     return recording;
   }
   if (!IsFolder(frames)) {
+    if (manifest.frames) {
+      return InputError(
+          folder.string(), "its frames, " + frames.string() + ", are not there",
+          "move the film or folder back, or correct \"frames\" in " +
+              (own.recording_json ? own.recording_json : own.scene_json)->file.string());
+    }
     return InputError(frames.string(), "the recording's frames are not there",
                       "it must be a folder of numbered images or a video");
   }

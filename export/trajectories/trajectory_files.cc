@@ -149,6 +149,33 @@ Result<TrajectoryFormat> TrajectoryFormatOf(const fs::path& file) {
       "name it .tum, .csv, .r3d, .json, .glb, .gltf or .mcap or a folder, or state its format");
 }
 
+Result<TrajectoryFormat> TrajectoryFormatToRead(const fs::path& file) {
+  std::error_code error;
+  constexpr std::array kFilms{".mp4", ".mov", ".m4v", ".mkv", ".webm", ".avi"};
+  if (std::find(kFilms.begin(), kFilms.end(), LowerExtension(file)) != kFilms.end()) {
+    return InputError(file.string(), "is a film, not a trajectory",
+                      "name the file or folder that the app or the reconstruction wrote beside it");
+  }
+  PLEINAIR_ASSIGN_OR_RETURN(const TrajectoryFormat format, TrajectoryFormatOf(file));
+  // A format that is only written is refused as such.
+  const bool is_read = format != TrajectoryFormat::kGltf && format != TrajectoryFormat::kMcap;
+  if (is_read && !fs::exists(file, error)) {
+    return InputError(file.string(), "does not exist", "check the name of the trajectory");
+  }
+  if (format != TrajectoryFormat::kColmap || !fs::is_directory(file, error) ||
+      HasColmapModel(file)) {
+    return format;
+  }
+  const bool has_poses = fs::is_directory(file / "poses", error);
+  const bool has_sparse = HasColmapModel(file / "sparse" / "0");
+  return InputError(file.string(), "is a folder without a trajectory",
+                    has_poses    ? "name one of the files in its folder poses"
+                    : has_sparse ? "name its folder sparse/0"
+                                 : "name a file (.tum, .csv, .r3d), or a folder with odometry.csv "
+                                   "(Stray Scanner), metadata (Record3D) or cameras and images "
+                                   "(COLMAP)");
+}
+
 Result<CameraTrajectory> ReadTrajectory(const fs::path& file, TrajectoryFormat format,
                                         const TrajectoryReading& options) {
   if (format == TrajectoryFormat::kGltf || format == TrajectoryFormat::kMcap) {

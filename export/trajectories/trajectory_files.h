@@ -34,6 +34,10 @@ std::optional<TrajectoryFormat> TrajectoryFormatNamed(const std::string& name);
 /// Errors: other names, a folder with several .r3d.
 Result<TrajectoryFormat> TrajectoryFormatOf(const std::filesystem::path& file);
 
+/// The format of a file that is to be read: as TrajectoryFormatOf(). Errors: those; nothing of that
+/// name; a film; a folder without a trajectory.
+Result<TrajectoryFormat> TrajectoryFormatToRead(const std::filesystem::path& file);
+
 struct TrajectoryReading {
   double frame_rate_hz = 0.0;  ///< For COLMAP, which has no times; 0: unknown.
   Transform<devices::EurocBody, Camera> body_from_camera{};
