@@ -13,6 +13,7 @@
 #include "app/replay/placement_warnings.h"
 #include "app/terminal/interrupt.h"
 #include "app/terminal/interrupt_deadline.h"
+#include "compositor/photometry/sky_fit.h"
 #include "devices/recordings/recording.h"
 #include "files/text_file.h"
 #include "scene/sun_over_place.h"
@@ -147,6 +148,9 @@ Result<SiteFacts> LookAtSite(const CheckRequest& request) {
   PLEINAIR_ASSIGN_OR_RETURN(recording, OpenSpread(request));
   PLEINAIR_RETURN_IF_ERROR(session::EstimateLight(*pipeline, std::move(recording), monitor));
   facts.light = renderer.light().measured;
+  const sky::SunPosition sun = scene::SunOver(scene.place_time, scene.place_time.start);
+  facts.light->sun_to_sky_stated =
+      compositor::SunToSky(*compositor::DescribedSky(scene)->ForSun(sun.ToSun(), sun.distance_au));
   return facts;
 }
 

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "app/check/shadow_findings.h"
 #include "app/check/trajectory_finding.h"
 #include "base/units.h"
 #include "tracker/observation.h"
@@ -195,36 +196,6 @@ SiteFinding SunFinding(const SiteFacts& facts) {
   return finding;
 }
 
-SiteFinding HeadingFinding(const SiteFacts& facts) {
-  // Compasses of phones are off by so much; replay corrects it.
-  constexpr double kDoubtful_deg = 5.0;
-  using Source = compositor::MeasuredLight::Source;
-  if (!facts.light || facts.frames.empty()) {
-    return {"heading", Verdict::kUnknown,
-            facts.has_objects ? "without ground or walls no shadow is known"
-                              : "the scene has no object",
-            "describe what casts a shadow: [[box]], [[wall]] (docs/guide/reference/scenes.md)"};
-  }
-  if (facts.light->sun_doubtful) {
-    return {"heading", Verdict::kDoubtful, "no shadow lies where the scene would cast one",
-            "check time, heading, and the place of boxes and walls"};
-  }
-  if (facts.light->heading_source != Source::kMeasured) {
-    return {"heading", Verdict::kUnknown, "no shadow of the described surfaces shows it",
-            "compare the object's shadow with a real one; edges of shadows of [[box]] and [[wall]] "
-            "in view "
-            "show the heading"};
-  }
-  const double offset_deg = ToDegrees(facts.light->heading_offset);
-  SiteFinding finding{
-      "heading", Verdict::kGood,
-      fmt::format("shadows turn it by {:+.1f} degrees, which replay does", offset_deg), ""};
-  if (std::abs(offset_deg) <= kDoubtful_deg) return finding;
-  finding.verdict = Verdict::kDoubtful;
-  finding.remedy = "check time and compass; then write the corrected heading into the scene";
-  return finding;
-}
-
 void AddObjectFindings(const SiteFacts& facts, std::vector<SiteFinding>* findings) {
   if (!facts.has_objects) {
     findings->push_back({"object", Verdict::kUnknown, "the scene has no object",
@@ -272,6 +243,7 @@ std::vector<SiteFinding> JudgeSite(const SiteFacts& facts) {
   }
   findings.push_back(SunFinding(facts));
   findings.push_back(HeadingFinding(facts));
+  findings.push_back(SkyFinding(facts));
   AddObjectFindings(facts, &findings);
   return findings;
 }

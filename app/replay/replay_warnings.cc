@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <iterator>
 #include <map>
 #include <set>
 
+#include "app/replay/light_contradiction.h"
 #include "app/replay/trajectory_warnings.h"
 #include "compositor/passes/render_targets.h"
 
@@ -17,8 +19,6 @@ namespace {
 
 // A model with many unsupported features must not fill the report.
 constexpr std::size_t kMaxKinds = 8;
-// Sun-to-sky ratio on level ground below which the sun is not noticeable.
-constexpr double kNoticeableSun = 0.1;
 constexpr double kNoticeableTurnDeg = 1.0;
 // With locked exposure, the exposure scale varies by a few hundredths.
 constexpr double kNoticeableExposureChange = 1.3;
@@ -101,6 +101,32 @@ std::vector<std::string> AnchorWarnings(const session::AnchorSummary& summary) {
         summary.filled, summary.gaps, summary.longest_gap_s));
   }
   return warnings;
+}
+
+/// What the frames show against the scene's sun and sky, and what is made of it; or nothing.
+std::string ContradictionSentence(const compositor::MeasuredLight& light) {
+  const LightContradiction contradiction = ContradictionOf(light);
+  std::string sentence = SeenText(contradiction, light);
+  if (sentence.empty()) return sentence;
+  sentence[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(sentence[0])));
+  switch (contradiction) {
+    case LightContradiction::kNone:
+      break;
+    case LightContradiction::kNoSunlight:
+    case LightContradiction::kShadowsMissing:
+      return sentence +
+             ": the sky is assumed overcast. If the sun shone, check place, time and heading, or "
+             "give --sun-to-sky.";
+    case LightContradiction::kShadowsVisible:
+    case LightContradiction::kMarkerDivided:
+      return sentence +
+             ": the sun is assumed to shine, although the scene describes an overcast sky.";
+    case LightContradiction::kShadowsElsewhere:
+      return sentence +
+             ": it is uncertain whether the sun shone, and the scene's sky is kept. Check place, "
+             "time and heading, or give --sun-to-sky.";
+  }
+  return sentence;
 }
 
 }  // namespace
@@ -190,9 +216,12 @@ std::vector<std::string> LightWarnings(const session::LightSummary& summary,
     if (color.measured.outcome == compositor::SurfaceColor::Outcome::kMeasured) continue;
     warnings.push_back(
         fmt::format("The color of {} could not be measured: {}. {:.2f} {:.2f} {:.2f} is assumed. "
-                    "Give its color in the scene if the light from it matters.",
+                    "Give its color in the scene if the light from it matters{}",
                     color.surface, ReasonOf(color.measured.outcome), color.reflectance.r,
-                    color.reflectance.g, color.reflectance.b));
+                    color.reflectance.g, color.reflectance.b,
+                    color.measured.outcome == compositor::SurfaceColor::Outcome::kImpossible
+                        ? ", and let 'pleinair check' judge cloudiness and time."
+                        : "."));
   }
   if (summary.response.source == session::ResponseSummary::Source::kMeasured) {
     warnings.push_back(
@@ -208,38 +237,8 @@ std::vector<std::string> LightWarnings(const session::LightSummary& summary,
                     "the horizon. Check place, time and the time's offset from UTC.",
                     -elevation_deg));
   }
-  const bool measured = light.sun_source == compositor::MeasuredLight::Source::kMeasured;
-  const bool denied = measured && !light.sun_shines && light.sun_to_sky_stated > kNoticeableSun;
-  if (denied && light.evidence.edges_agreeing == 0) {
-    warnings.push_back(
-        "The brightness of the surfaces shows no sunlight: the sky is assumed overcast. If the sun "
-        "shone, check place, time and heading, or give --sun-to-sky.");
-  } else if (denied) {
-    warnings.push_back(
-        fmt::format("No shadow was found where the phantoms would cast one ({} shadow edges "
-                    "checked): the sky is assumed overcast. If the sun shone, check place, time "
-                    "and heading, or give --sun-to-sky.",
-                    light.evidence.edges));
-  }
-  if (measured && light.sun_shines && light.sun_to_sky_stated <= kNoticeableSun) {
-    warnings.push_back(
-        fmt::format("The phantoms' shadows are visible ({} shadow edges): the sun is assumed to "
-                    "shine, although the scene describes an overcast sky.",
-                    light.evidence.edges_agreeing));
-  }
-  if (light.sun_source == compositor::MeasuredLight::Source::kMarker &&
-      light.sun_to_sky_stated <= kNoticeableSun) {
-    warnings.push_back(
-        "A shadow edge crosses the marker: the sun is assumed to shine, although the scene "
-        "describes an overcast sky.");
-  }
-  if (light.sun_doubtful) {
-    warnings.push_back(fmt::format(
-        "No shadow was found where the phantoms would cast one ({} shadow edges checked), but "
-        "shadows lie elsewhere: it is uncertain whether the sun shone, and the scene's sky is "
-        "kept. Check place, time and heading, or give --sun-to-sky.",
-        light.evidence.edges));
-  }
+  std::string contradiction = ContradictionSentence(light);
+  if (!contradiction.empty()) warnings.push_back(std::move(contradiction));
   const double turn_deg = ToDegrees(light.heading_offset);
   if (std::abs(turn_deg) > kNoticeableTurnDeg) {
     warnings.push_back(

@@ -37,7 +37,7 @@ TEST(Check, FindsTheBundledPlaceUsable) {
   const RunResult run = RunPleinair({"check", BundledRecording(), "--json"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   for (const auto& [subject, verdict] : Verdicts(run.out)) EXPECT_EQ(verdict, "good") << subject;
-  EXPECT_EQ(Verdicts(run.out).size(), 9U);
+  EXPECT_EQ(Verdicts(run.out).size(), 10U);
 }
 
 TEST(Check, SaysWhatIsWrongAndExitsWithOne) {

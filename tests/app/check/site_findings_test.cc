@@ -1,6 +1,6 @@
 #include "app/check/site_findings.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <algorithm>
 #include <functional>
@@ -8,6 +8,8 @@
 
 namespace pleinair::app {
 namespace {
+
+using ::testing::HasSubstr;
 
 /// A site without a fault, in ten frames.
 SiteFacts GoodSite() {
@@ -18,6 +20,10 @@ SiteFacts GoodSite() {
   facts.has_objects = true;
   facts.light.emplace();
   facts.light->heading_source = compositor::MeasuredLight::Source::kMeasured;
+  facts.light->sun_source = compositor::MeasuredLight::Source::kMeasured;
+  facts.light->sun_to_sky = 5.0;
+  facts.light->sun_to_sky_stated = 6.0;
+  facts.shadows.casters = 2;
   for (int i = 0; i < 10; ++i) {
     FrameFacts frame;
     frame.index = i;
@@ -177,6 +183,69 @@ TEST(JudgeSite, NightWrongHeadingsAndHiddenObjectsAreNamed) {
             SiteVerdict::kUnknown);
   EXPECT_EQ(VerdictOn("object", [](SiteFacts* site) { site->placement = {"It is in no view."}; }),
             SiteVerdict::kDoubtful);
+}
+
+SiteFinding FindingOn(const std::string& subject, const std::function<void(SiteFacts*)>& change) {
+  SiteFacts facts = GoodSite();
+  change(&facts);
+  for (const SiteFinding& finding : JudgeSite(facts)) {
+    if (finding.subject == subject) return finding;
+  }
+  ADD_FAILURE() << "nothing is said of " << subject;
+  return {};
+}
+
+TEST(JudgeSite, SaysWhyNoShadowGaveTheHeading) {
+  using Source = compositor::MeasuredLight::Source;
+  const auto unmeasured = [](int casters, int edges, double with_contrast) {
+    return FindingOn("heading", [=](SiteFacts* site) {
+      site->light->heading_source = Source::kDescription;
+      site->light->sun_source = Source::kDescription;
+      site->shadows.casters = casters;
+      site->light->evidence.edges = edges;
+      site->light->evidence.edges_with_contrast = with_contrast;
+    });
+  };
+  const SiteFinding nothing = unmeasured(0, 0, 0.0), unseen = unmeasured(1, 0, 0.0);
+  const SiteFinding few = unmeasured(1, 4, 1.0), missing = unmeasured(1, 20, 0.2);
+  EXPECT_THAT(nothing.text, HasSubstr("nothing is described"));
+  EXPECT_THAT(unseen.text, HasSubstr("no edge"));
+  EXPECT_THAT(few.text, HasSubstr("4 places of their edges are in view, and 6 are needed"));
+  EXPECT_THAT(missing.text, HasSubstr("20 places of shadow edges are expected"));
+  for (const SiteFinding& finding : {nothing, unseen, few}) {
+    EXPECT_EQ(finding.verdict, SiteVerdict::kUnknown) << finding.text;
+    EXPECT_THAT(finding.remedy, HasSubstr("compare the object's shadow"));
+  }
+  EXPECT_EQ(missing.verdict, SiteVerdict::kDoubtful);
+  EXPECT_THAT(missing.remedy, HasSubstr("check time, heading"));
+}
+
+TEST(JudgeSite, ContradictsAWrongSky) {
+  using Source = compositor::MeasuredLight::Source;
+  const SiteFinding sunny = FindingOn("sky", [](SiteFacts* site) {
+    site->light->sun_to_sky_stated = 0.0;
+    site->light->evidence.edges_agreeing = 9;
+  });
+  EXPECT_EQ(sunny.verdict, SiteVerdict::kDoubtful);
+  EXPECT_THAT(sunny.text, HasSubstr("9 shadow edges"));
+  const SiteFinding overcast = FindingOn("sky", [](SiteFacts* site) {
+    site->light->sun_shines = false;
+    site->light->evidence.edges = site->light->evidence.edges_agreeing = 12;
+  });
+  EXPECT_EQ(overcast.verdict, SiteVerdict::kDoubtful);
+  EXPECT_THAT(overcast.text, HasSubstr("12 shadow edges checked"));
+  EXPECT_THAT(overcast.remedy, HasSubstr("cloudiness = \"overcast\""));
+  EXPECT_EQ(
+      VerdictOn("sky", [](SiteFacts* site) { site->light->sun_source = Source::kDescription; }),
+      SiteVerdict::kUnknown);
+  EXPECT_EQ(VerdictOn("sky", [](SiteFacts* site) { site->light->sun_doubtful = true; }),
+            SiteVerdict::kUnknown);
+  EXPECT_EQ(VerdictOn("sky",
+                      [](SiteFacts* site) {
+                        site->light->sun_shines = false;
+                        site->light->sun_to_sky_stated = 0.0;
+                      }),
+            SiteVerdict::kGood);
 }
 
 }  // namespace
