@@ -18,8 +18,11 @@ Result<Canvas> Canvas::Create(const CameraModel& camera, const ComposerOptions& 
       canvas.targets, RenderTargets::Create(canvas.camera.width, canvas.camera.height,
                                             {.detailed = materials.HasDetails(),
                                              .blended = materials.HasBlended(),
-                                             .multisampled = options.antialiasing.method ==
-                                                             AntialiasingMethod::kMultisample}));
+                                             .multisampled = options.antialiasing.HasSamples()}));
+  if (const int places = options.antialiasing.CoveragePlaces(); places > 0) {
+    PLEINAIR_ASSIGN_OR_RETURN(canvas.coverage,
+                              CoveragePass::Create(places, materials.HasTextures()));
+  }
   PLEINAIR_ASSIGN_OR_RETURN(
       canvas.places,
       PlaceMean::Create(canvas.camera.width, canvas.camera.height, options.antialiasing));

@@ -5,6 +5,7 @@
 #include "compositor/composer_options.h"
 #include "compositor/lens/lens_pass.h"
 #include "compositor/passes/coarse_ratio.h"
+#include "compositor/passes/coverage_pass.h"
 #include "compositor/passes/place_mean.h"
 #include "compositor/passes/render_camera.h"
 #include "compositor/passes/render_targets.h"
@@ -18,6 +19,7 @@ struct Canvas {
   RenderCamera camera;
   RenderTargets targets;
   PlaceMean places;
+  CoveragePass coverage;
   CoarseRatio coarse;
   LensPass lens;
   CameraPicture picture;

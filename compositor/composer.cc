@@ -27,7 +27,6 @@
 #include "compositor/surfaces/scene_surfaces.h"
 #include "gl/egl_context.h"
 #include "gl/program.h"
-#include "shadows/splits.h"
 
 namespace pleinair::compositor {
 namespace {
@@ -51,6 +50,7 @@ class GlComposer : public Composer {
   Result<void> SetOptions(const ComposerOptions& options) override;
   void LetGo() override { context_.ReleaseCurrent(); }
   int samples() const override { return canvas_.targets.ids().samples(); }
+  double MixedPixels() const override { return canvas_.coverage.MeasuredShare(); }
   void MoveModel(int placed_model, const Mat3& linear, Vec3 translation_m) override {
     if (changing_ && changing_->Has(placed_model)) {
       changing_->Move(placed_model, linear, translation_m);
@@ -102,8 +102,6 @@ class GlComposer : public Composer {
   Result<shadows::View> UpdateScene(const Transform<Camera, Marker>& camera_from_marker);
   void DrawScene(const SurfacePrograms& programs, const FrameUniforms& frame,
                  const AffectedTiles& tiles);
-  void ShadeObjects(const SurfacePrograms& programs, const FrameUniforms& frame,
-                    std::span<const PixelRect> within);
   FrameUniforms FrameOf(const shadows::View& view,
                         const Transform<Camera, Marker>& camera_from_marker,
                         LinearRgb exposure_scale) const;
@@ -234,7 +232,6 @@ Result<void> GlComposer::SetSunTransmittance(
   return light_.SetTransmittance(sun_transmittance);
 }
 
-/// Draws over the composed image.
 Result<void> GlComposer::DrawDebugView(const shadows::View& view) {
   const shadows::ShadowMaps& maps = shadows_.maps();
   if (!passes_.debug_view) {
@@ -263,22 +260,18 @@ Result<void> GlComposer::SortSurfaces() {
   return surfaces_.SortObjects(light_.HasSun() ? ToGlm(light_.to_sun()) : glm::vec3(0.0F));
 }
 
-/// Requires ObjectPass::DrawSurfaces().
-void GlComposer::ShadeObjects(const SurfacePrograms& programs, const FrameUniforms& frame,
-                              std::span<const PixelRect> within) {
-  light_.transmittance().Bind(5);
-  passes_.objects.Draw(canvas_.targets, surfaces_, programs, frame, light_.environment(), within);
-}
-
 void GlComposer::DrawScene(const SurfacePrograms& programs, const FrameUniforms& frame,
                            const AffectedTiles& tiles) {
+  canvas_.coverage.Measure(surfaces_, frame, canvas_.targets, tiles.fine.Rectangles());
   EnableSurfaceTests();
   passes_.ratio.DrawSurfaces(canvas_.targets, surfaces_, frame, tiles.fine.Bounds());
   passes_.objects.DrawSurfaces(canvas_.targets, surfaces_, frame, tiles.objects.Bounds());
   glDisable(GL_CULL_FACE);
-  ShadeObjects(programs, frame, tiles.objects.Rectangles());
+  light_.transmittance().Bind(5);
+  passes_.objects.Draw(canvas_.targets, surfaces_, canvas_.coverage, programs, frame,
+                       light_.environment(), tiles.objects.Rectangles());
   canvas_.picture.BindForShading(2, 3, 4);
-  passes_.ratio.Draw(canvas_.targets, surfaces_, programs, frame, unmodelled_,
+  passes_.ratio.Draw(canvas_.targets, surfaces_, canvas_.coverage, programs, frame, unmodelled_,
                      tiles.fine.Rectangles());
   glDisable(GL_DEPTH_TEST);
 }
@@ -373,15 +366,14 @@ Result<RgbImage> GlComposer::Compose(CameraImageView image,
                        surfaces_,
                        passes_.ratio,
                        passes_.objects,
+                       *programs,
+                       light_,
                        options_.show_shadow_maps,
                        camera_.fx,
                        spread_px,
                        draw_pinhole,
                        [&](const FrameUniforms& through, const AffectedTiles& drawn) {
                          DrawScene(*programs, through, drawn);
-                       },
-                       [&](const FrameUniforms& through, std::span<const PixelRect> within) {
-                         ShadeObjects(*programs, through, within);
                        }};
   PLEINAIR_ASSIGN_OR_RETURN(const RealOccluders* occluders, lens_.Draw(seen, frame, view, &tiles));
   PLEINAIR_RETURN_IF_ERROR(

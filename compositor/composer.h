@@ -57,6 +57,9 @@ class Composer {
 
   /// Samples per rendered pixel that the renderer offers: 4, or its maximum if that is lower.
   virtual int samples() const = 0;
+  /// Share of the drawn pixels whose coverage was computed at many places, over all images since
+  /// the method of antialiasing was set. 0 for methods that compute none.
+  virtual double MixedPixels() const = 0;
 
   /// Releases the context, so that another thread can draw.
   virtual void LetGo() = 0;

@@ -82,7 +82,10 @@ Result<const RealOccluders*> LensDrawing::Draw(const LensScene& scene, const Fra
   };
   const auto shade_objects = [&](std::span<const PixelRect> hidden) {
     glEnable(GL_DEPTH_TEST);
-    scene.shade_objects(frame, hidden);
+    scene.light.transmittance().Bind(5);
+    // The coverage of edges is that of the whole scene.
+    scene.objects.Draw(canvas.targets, scene.surfaces, CoveragePass(), scene.programs, frame,
+                       scene.light.environment(), hidden);
     glDisable(GL_DEPTH_TEST);
   };
   if (places_ == kByLayers) {

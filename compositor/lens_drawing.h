@@ -9,9 +9,11 @@
 #include "compositor/lens/lens_figures.h"
 #include "compositor/lens/real_occluders.h"
 #include "compositor/lens/thin_lens.h"
+#include "compositor/passes/frame_daylight.h"
 #include "compositor/passes/frame_uniforms.h"
 #include "compositor/passes/object_pass.h"
 #include "compositor/passes/shadow_ratio_pass.h"
+#include "compositor/passes/surface_programs.h"
 #include "compositor/surfaces/image_tiles.h"
 #include "compositor/surfaces/scene_surfaces.h"
 #include "shadows/light_window.h"
@@ -24,6 +26,8 @@ struct LensScene {
   const SceneSurfaces& surfaces;  ///< Classified.
   const ShadowRatioPass& ratio;
   const ObjectPass& objects;
+  const SurfacePrograms& programs;
+  const FrameDaylight& light;
   bool includes_all = false;  ///< Draws all tiles of the image.
   double camera_fx = 0.0;     ///< Focal length of the camera image, pixels.
   int spread_px = 0;          ///< By which the drawn pinhole image has more pixels than needed.
@@ -31,8 +35,6 @@ struct LensScene {
   std::function<AffectedTiles(int)> draw_pinhole;
   /// Draws the scene as a frame shows it into the tiles.
   std::function<void(const FrameUniforms&, const AffectedTiles&)> draw;
-  /// Shades the drawn numbers of objects. Requires GL_DEPTH_TEST.
-  std::function<void(const FrameUniforms&, std::span<const PixelRect>)> shade_objects;
 };
 
 /// The lens of a Composer, and how much of its last image was out of focus.

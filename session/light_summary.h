@@ -64,6 +64,7 @@ struct CameraSummary {
   std::optional<compositor::ThinLens> lens;  ///< At the last frame.
   int lens_places = 0;                       ///< DefocusOptions::places.
   compositor::LensFigures drawn_lens;        ///< The largest of all frames so far.
+  double mixed_pixels = 0.0;                 ///< Composer::MixedPixels().
 };
 
 /// Light of a frame: sun, sky and exposure.

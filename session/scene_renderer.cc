@@ -384,6 +384,7 @@ Result<RgbImage> SceneRenderer::Render(CameraImageView image,
   const auto start = Clock::now();
   PLEINAIR_ASSIGN_OR_RETURN(RgbImage composed,
                             composer_->Compose(image, camera_from_marker, summary_.exposure_scale));
+  summary_.camera.mixed_pixels = composer_->MixedPixels();
   const compositor::LensFigures drawn = composer_->DrawnLens();
   compositor::LensFigures& most = summary_.camera.drawn_lens;
   most.largest_circle_px = std::max(most.largest_circle_px, drawn.largest_circle_px);

@@ -21,9 +21,10 @@ namespace {
 using compositor::AntialiasingMethod;
 using compositor::Composer;
 
-constexpr std::array<AntialiasingBenchMethod, 4> kMethods{{
+constexpr std::array<AntialiasingBenchMethod, 5> kMethods{{
     {"none", {AntialiasingMethod::kNone}},
     {"msaa", {AntialiasingMethod::kMultisample}},
+    {"subpixel", {AntialiasingMethod::kSubpixel}},
     {"ssaa16", {AntialiasingMethod::kReference, 16}},
     {"reference", {AntialiasingMethod::kReference, 64}},
 }};

@@ -18,7 +18,7 @@ struct AntialiasingBenchMethod {
   compositor::Antialiasing antialiasing;
 };
 
-/// none, msaa, ssaa16 (16 shaded places a pixel) and reference (64).
+/// none, msaa, subpixel, ssaa16 (16 shaded places a pixel) and reference (64).
 std::span<const AntialiasingBenchMethod> AntialiasingBenchMethods();
 
 /// What a run of the benchmark compares, and how long.

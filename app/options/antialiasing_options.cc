@@ -17,13 +17,13 @@ void AddAntialiasingOptions(CLI::App& command, AntialiasingArguments& arguments)
       .add_option(
           "--antialiasing", arguments.method,
           "Edges of virtual objects and shadows: msaa, four samples a pixel (default); "
-          "none, the pixel's centre; reference, every place of a pixel drawn and shaded for "
-          "itself, slow")
+          "subpixel, also coverage at 64 places of pixels with edges; none, the pixel's centre; "
+          "reference, every place of a pixel drawn and shaded for itself, slow")
       ->check(CLI::IsMember(names))
       ->type_name("METHOD");
   command
       .add_option("--antialiasing-samples", arguments.samples,
-                  "Places of a pixel for --antialiasing reference; default 64")
+                  "Places of a pixel for --antialiasing subpixel and reference; default 64")
       ->check(CLI::IsMember({4, 8, 16, 32, 64}))
       ->type_name("N");
 }
@@ -34,9 +34,9 @@ Result<Antialiasing> ParseAntialiasing(const AntialiasingArguments& arguments) {
     if (arguments.method == compositor::NameOf(method)) antialiasing.method = method;
   }
   if (!arguments.samples) return antialiasing;
-  if (antialiasing.method != AntialiasingMethod::kReference) {
-    return InputError("--antialiasing-samples", "applies to --antialiasing reference",
-                      "leave it out, or choose that method");
+  if (!antialiasing.HasPlaces()) {
+    return InputError("--antialiasing-samples", "applies to --antialiasing subpixel and reference",
+                      "leave it out, or choose one of these methods");
   }
   antialiasing.places = *arguments.samples;
   return antialiasing;

@@ -58,8 +58,9 @@ void ObjectPass::DrawSurfaces(const RenderTargets& targets, const SceneSurfaces&
 }
 
 void ObjectPass::Draw(const RenderTargets& targets, const SceneSurfaces& surfaces,
-                      const SurfacePrograms& programs, const FrameUniforms& frame,
-                      const gl::GlTexture& environment, std::span<const PixelRect> within) const {
+                      const CoveragePass& coverage, const SurfacePrograms& programs,
+                      const FrameUniforms& frame, const gl::GlTexture& environment,
+                      std::span<const PixelRect> within) const {
   no_attributes_.Bind();
   surfaces.object_triangles().Bind();
   surfaces.object_materials().Bind(2);
@@ -71,11 +72,13 @@ void ObjectPass::Draw(const RenderTargets& targets, const SceneSurfaces& surface
   sort_program_.Set("u_eye_m", frame.eye_m);
   frame.SetRays(sort_program_);
   DrawWithin(within);
+  coverage.DrawOver(true, targets.samples());
 
   targets.BeginObjects();
   glDepthFunc(GL_EQUAL);
   glDepthMask(GL_FALSE);
   targets.seen().Bind(0);
+  targets.weights().Bind(19);
   environment.Bind(3);
   targets.texels().Bind(4);
   if (surfaces.materials().HasDetails()) {

@@ -3,6 +3,7 @@
 #include <span>
 
 #include "base/error.h"
+#include "compositor/passes/coverage_pass.h"
 #include "compositor/passes/frame_uniforms.h"
 #include "compositor/passes/render_targets.h"
 #include "compositor/passes/surface_programs.h"
@@ -30,14 +31,16 @@ class ObjectPass {
   void DrawSurfaces(const RenderTargets& targets, const SceneSurfaces& surfaces,
                     const FrameUniforms& frame, const PixelRect& within) const;
 
-  /// Shades the surfaces of DrawSurfaces() into targets.objects(). `within`: all pixels with
+  /// Shades the surfaces of DrawSurfaces() into targets.objects(), with the `coverage` of this
+  /// frame. `within`: all pixels with
   /// objects, in disjoint rectangles. Requires bound shadow maps, the sun transmittance map at unit
   /// 5, GL_DEPTH_TEST enabled and GL_CULL_FACE disabled. Binds its own textures to units 0 to 4, 6,
-  /// 7, 16 and 17. Afterwards depth writes are on, depth tests use GL_LESS, and the scissor test is
-  /// off.
+  /// 7, 16, 17 and 19 to 21. Afterwards depth writes are on, depth tests use GL_LESS, and the
+  /// scissor test is off.
   void Draw(const RenderTargets& targets, const SceneSurfaces& surfaces,
-            const SurfacePrograms& programs, const FrameUniforms& frame,
-            const gl::GlTexture& environment, std::span<const PixelRect> within) const;
+            const CoveragePass& coverage, const SurfacePrograms& programs,
+            const FrameUniforms& frame, const gl::GlTexture& environment,
+            std::span<const PixelRect> within) const;
 
  private:
   gl::GlProgram id_program_, textured_id_program_, alpha_id_program_, sort_program_;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "compositor/coverage/pixel_pieces.h"
+
 namespace pleinair::compositor {
 namespace {
 
@@ -32,7 +34,10 @@ Result<RenderTargets> RenderTargets::Create(int width, int height, const Content
   PLEINAIR_ASSIGN_OR_RETURN(targets.samples_.texels, create_samples(kSampledFormats[1]));
   PLEINAIR_ASSIGN_OR_RETURN(targets.samples_.depth, create_samples(kSampledFormats[2]));
   PLEINAIR_ASSIGN_OR_RETURN(targets.seen_, gl::GlTexture::Create2D(GL_RGBA32UI, width, height));
-  targets.seen_.SetFilter(GL_NEAREST, GL_NEAREST);
+  PLEINAIR_ASSIGN_OR_RETURN(targets.weights_, gl::GlTexture::Create2D(GL_RG32UI, width, height));
+  for (gl::GlTexture* of_pieces : {&targets.seen_, &targets.weights_}) {
+    of_pieces->SetFilter(GL_NEAREST, GL_NEAREST);
+  }
   PLEINAIR_ASSIGN_OR_RETURN(targets.kinds_,
                             gl::GlTexture::Create2D(GL_DEPTH_COMPONENT32F, width, height));
   for (gl::GlTexture* picture : {&targets.picture_.ratio, &targets.picture_.objects,
@@ -52,8 +57,9 @@ Result<RenderTargets> RenderTargets::Create(int width, int height, const Content
   }
   PLEINAIR_ASSIGN_OR_RETURN(targets.framebuffers_.ids_and_texels,
                             gl::GlFramebuffer::Create(with_texels));
-  PLEINAIR_ASSIGN_OR_RETURN(targets.framebuffers_.sort,
-                            gl::GlFramebuffer::Create({{{&targets.seen_}}, {&targets.kinds_}}));
+  PLEINAIR_ASSIGN_OR_RETURN(
+      targets.framebuffers_.sort,
+      gl::GlFramebuffer::Create({{{&targets.seen_}, {&targets.weights_}}, {&targets.kinds_}}));
   gl::FramebufferAttachments of_objects{{{&targets.picture_.objects}}, {&targets.kinds_}};
   if (content.blended) {
     PLEINAIR_ASSIGN_OR_RETURN(targets.sample_weights_,
@@ -97,7 +103,7 @@ void RenderTargets::BeginObjects() const {
   framebuffers_.objects.Bind();
   framebuffers_.objects.ClearColor(0, 0, 0, 0, 0);
   if (content_.blended) {
-    framebuffers_.objects.ClearColor(1, 1.0F / static_cast<float>(samples()), 0, 0, 0);
+    framebuffers_.objects.ClearColor(1, 1.0F / static_cast<float>(kWeightOfPixel), 0, 0, 0);
   }
 }
 

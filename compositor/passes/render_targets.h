@@ -60,9 +60,11 @@ class RenderTargets {
   /// Bumps of the surface (shaders/surface_gradient.glsl) and texels of its emission, per sample.
   const gl::GlTexture& gradients() const { return samples_.gradients; }
   const gl::GlTexture& emissions() const { return samples_.emissions; }
-  /// Weight of each sample of a pixel that shows no object (shaders/uncovered_samples.glsl).
+  /// Share of a pixel of each unit of weight beside objects (shaders/uncovered_samples.glsl).
   const gl::GlTexture& sample_weights() const { return sample_weights_; }
   const gl::GlTexture& seen() const { return seen_; }
+  /// Weights of the pieces of surface in seen() (shaders/piece_weights.glsl).
+  const gl::GlTexture& weights() const { return weights_; }
   const gl::GlTexture& ratio() const { return picture_.ratio; }
   const gl::GlTexture& objects() const { return picture_.objects; }
 
@@ -83,7 +85,7 @@ class RenderTargets {
   };
 
   Samples samples_;
-  gl::GlTexture seen_, kinds_, sample_weights_;
+  gl::GlTexture seen_, weights_, kinds_, sample_weights_;
   VirtualPicture picture_, passed_;
   Framebuffers framebuffers_;
   Content content_;

@@ -36,7 +36,7 @@ void ShadowRatioPass::DrawSurfaces(const RenderTargets& targets, const SceneSurf
 }
 
 void ShadowRatioPass::Begin(const RenderTargets& targets, const SceneSurfaces& surfaces,
-                            std::span<const PixelRect> within) const {
+                            const CoveragePass& coverage, std::span<const PixelRect> within) const {
   no_attributes_.Bind();
   surfaces.triangles().Bind();
   targets.BeginSorting();
@@ -45,20 +45,21 @@ void ShadowRatioPass::Begin(const RenderTargets& targets, const SceneSurfaces& s
   sort_program_.Use();
   sort_program_.Set("u_samples", targets.samples());
   DrawWithin(within);
+  coverage.DrawOver(false, targets.samples());
 
   targets.BeginRatio(within);
   glDepthFunc(GL_EQUAL);
   glDepthMask(GL_FALSE);
   targets.seen().Bind(0);
+  targets.weights().Bind(19);
   if (targets.sample_weights()) targets.sample_weights().Bind(18);
 }
 
-void ShadowRatioPass::Shade(const RenderTargets& targets, const FrameUniforms& frame,
-                            const gl::GlProgram& program, AffectedTriangles::Change change,
-                            bool needs_airlight, std::span<const PixelRect> within) const {
+void ShadowRatioPass::Shade(const FrameUniforms& frame, const gl::GlProgram& program,
+                            AffectedTriangles::Change change, bool needs_airlight,
+                            std::span<const PixelRect> within) const {
   program.Use();
   program.Set("u_depth", DepthOf(change));
-  program.Set("u_samples", static_cast<float>(targets.samples()));
   frame.Set(program);
   frame.SetRays(program);
   if (needs_airlight) frame.SetFog(program);
@@ -69,26 +70,27 @@ void ShadowRatioPass::DrawSky(const RenderTargets& targets, const SceneSurfaces&
                               const SurfacePrograms& programs, const FrameUniforms& frame,
                               const PixelRect& within) const {
   const std::span<const PixelRect> whole(&within, 1);
-  Begin(targets, surfaces, whole);
+  Begin(targets, surfaces, CoveragePass(), whole);
   surfaces.triangles().BindLinearRatios();
-  Shade(targets, frame, linear_program_, AffectedTriangles::kLinearSky, false, whole);
+  Shade(frame, linear_program_, AffectedTriangles::kLinearSky, false, whole);
   if (!frame.needs_airlight) {
     surfaces.triangles().Bind();
     const auto change = AffectedTriangles::kSunlitSky;
-    Shade(targets, frame, programs.phantoms[change], change, false, whole);
+    Shade(frame, programs.phantoms[change], change, false, whole);
   }
   glDepthMask(GL_TRUE);
   glDepthFunc(GL_LESS);
 }
 
 void ShadowRatioPass::Draw(const RenderTargets& targets, const SceneSurfaces& surfaces,
-                           const SurfacePrograms& programs, const FrameUniforms& frame,
-                           const ShadowOptions& options, std::span<const PixelRect> within) const {
+                           const CoveragePass& coverage, const SurfacePrograms& programs,
+                           const FrameUniforms& frame, const ShadowOptions& options,
+                           std::span<const PixelRect> within) const {
   using Change = AffectedTriangles::Change;
-  Begin(targets, surfaces, within);
+  Begin(targets, surfaces, coverage, within);
   const auto draw_linear = [&](const gl::GlProgram& program, bool needs_airlight) {
     surfaces.triangles().BindLinearRatios();
-    Shade(targets, frame, program, Change::kLinearSky, needs_airlight, within);
+    Shade(frame, program, Change::kLinearSky, needs_airlight, within);
     surfaces.triangles().Bind();
   };
   if (!frame.linear_needs_airlight) draw_linear(linear_program_, false);
@@ -103,7 +105,7 @@ void ShadowRatioPass::Draw(const RenderTargets& targets, const SceneSurfaces& su
   sun.Set("u_margin_half_m", static_cast<float>(options.margin_size_m / 2));
   frame.SetSunTransmittance(sun);
   for (const Change change : {Change::kSun, Change::kSunlitSky}) {
-    Shade(targets, frame, programs.phantoms[change], change, frame.needs_airlight, within);
+    Shade(frame, programs.phantoms[change], change, frame.needs_airlight, within);
   }
   if (frame.linear_needs_airlight) draw_linear(linear_program_with_airlight_, true);
   if (frame.needs_airlight) glDisablei(GL_BLEND, 1);

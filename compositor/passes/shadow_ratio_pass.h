@@ -3,6 +3,7 @@
 #include <span>
 
 #include "base/error.h"
+#include "compositor/passes/coverage_pass.h"
 #include "compositor/passes/frame_uniforms.h"
 #include "compositor/passes/render_targets.h"
 #include "compositor/passes/surface_programs.h"
@@ -38,15 +39,16 @@ class ShadowRatioPass {
     bool assume_unmodelled = true;  ///< Composer::AssumeUnmodelledShadows().
     double margin_size_m = 0.0;     ///< Composer::SetMarkerMargin().
   };
-  /// Shades the surfaces of DrawSurfaces(), after the objects are drawn. `within`: all pixels that
-  /// the objects may affect, in disjoint rectangles. Requires
+  /// Shades the surfaces of DrawSurfaces(), after the objects are drawn, with the `coverage` of
+  /// this frame. `within`: all pixels that the objects may affect, in disjoint rectangles. Requires
   /// CameraPicture::BindForShading(2, 3, 4), bound shadow maps, the sun transmittance map at unit
   /// 5, GL_DEPTH_TEST enabled and GL_CULL_FACE disabled. Binds its own textures to units 0, 1, 6,
-  /// 7 and 18. Afterwards depth writes are on, depth tests use GL_LESS, and blending and the
+  /// 7 and 18 to 21. Afterwards depth writes are on, depth tests use GL_LESS, and blending and the
   /// scissor test are off.
   void Draw(const RenderTargets& targets, const SceneSurfaces& surfaces,
-            const SurfacePrograms& programs, const FrameUniforms& frame,
-            const ShadowOptions& options, std::span<const PixelRect> within) const;
+            const CoveragePass& coverage, const SurfacePrograms& programs,
+            const FrameUniforms& frame, const ShadowOptions& options,
+            std::span<const PixelRect> within) const;
 
   /// Classification depth of pixels with at most this change. Must match
   /// shaders/visibility_buffer_layout.glsl.
@@ -57,8 +59,8 @@ class ShadowRatioPass {
  private:
   /// Classifies the pixels and clears the ratio.
   void Begin(const RenderTargets& targets, const SceneSurfaces& surfaces,
-             std::span<const PixelRect> within) const;
-  void Shade(const RenderTargets& targets, const FrameUniforms& frame, const gl::GlProgram& program,
+             const CoveragePass& coverage, std::span<const PixelRect> within) const;
+  void Shade(const FrameUniforms& frame, const gl::GlProgram& program,
              AffectedTriangles::Change change, bool needs_airlight,
              std::span<const PixelRect> within) const;
 

@@ -3,12 +3,14 @@
 // surface, with the samples that show this component. The depth is the maximum
 // AffectedTriangles::Change of the samples, for the passes that shade.
 
+#include "compositor/shaders/piece_weights.glsl"
 #include "compositor/shaders/visibility_buffer.glsl"
 
 layout(binding = 0) uniform usampler2DMS u_ids;
 uniform int u_samples;  // Per pixel, 4 at most.
 
 layout(location = 0) out uvec4 out_visible;  // First to last: VisibleTriangle.
+layout(location = 1) out uvec2 out_weights;  // As piece_weights.glsl.
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
@@ -36,5 +38,6 @@ void main() {
     kind = id == 0u ? kind : min(kind, KindOf(triangle));
   } while (any(notEqual(left, uvec4(0u))));
   out_visible = seen;
+  out_weights = uvec2(WeightsOfSamples(seen, u_samples), 0u);
   gl_FragDepth = DepthOfKind(kind);
 }

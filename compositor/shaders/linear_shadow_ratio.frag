@@ -16,6 +16,7 @@ uniform vec3 u_ray_y;
 layout(location = 0) out vec4 out_ratio;
 
 layout(binding = 0) uniform usampler2D u_visible;  // From affected_pixels.frag.
+layout(binding = 19) uniform usampler2D u_weights;
 layout(binding = 1) uniform sampler2D u_linear_ratios;  // kTexelsPerLinearRatio per triangle.
 
 LinearRatioPoint PlaceOn(uint id) {
@@ -30,16 +31,18 @@ LinearRatioPoint PlaceOn(uint id) {
 
 void main() {
   uvec4 seen = texelFetch(u_visible, ivec2(gl_FragCoord.xy), 0);
+  uint weights = texelFetch(u_weights, ivec2(gl_FragCoord.xy), 0).r;
   vec3 ratio = vec3(0.0), airlight = vec3(0.0);
-  float samples = 0.0;
+  float affected = 0.0;
   do {
-    float count = dot(SamplesOf(seen.x), vec4(1.0));
+    float weight = WeightOf(weights);
     LinearRatioPoint place = PlaceOn(IdOf(seen.x));
-    ratio += count * place.ratio;
-    airlight += count * AirlightOver(place.ratio, AirUpTo(distance(u_eye_m, place.position_m)));
-    samples += count;
+    ratio += weight * place.ratio;
+    airlight += weight * AirlightOver(place.ratio, AirUpTo(distance(u_eye_m, place.position_m)));
+    affected += weight;
     seen = uvec4(seen.yzw, 0u);
+    weights >>= 8;
   } while (seen.x != 0u);
-  out_ratio = vec4(RatioOfPixel(ratio, samples), 1.0);
-  WriteAirlight(SampleWeight() * airlight);
+  out_ratio = vec4(RatioOfPixel(ratio, affected), 1.0);
+  WriteAirlight(WeightOfUncovered() * airlight);
 }

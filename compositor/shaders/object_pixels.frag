@@ -5,6 +5,7 @@
 // the edge of its near side, is another piece. The depth gives the passes that shade the sun
 // visibility class (KindOf).
 
+#include "compositor/shaders/piece_weights.glsl"
 #include "compositor/shaders/visible_surface.glsl"
 #include "compositor/shaders/material_table.glsl"
 
@@ -12,6 +13,7 @@ layout(binding = 0) uniform usampler2DMS u_ids;
 uniform int u_samples;  // Per pixel, 4 at most.
 
 layout(location = 0) out uvec4 out_visible;  // First to last: VisibleTriangle.
+layout(location = 1) out uvec2 out_weights;  // As piece_weights.glsl; all textures are here.
 
 const float kAlike = 0.9;  // Cosine.
 
@@ -59,5 +61,6 @@ void main() {
     kind = shown ? min(kind, KindOf(triangle)) : kind;
   } while (left != uvec4(0u));
   out_visible = seen;
+  out_weights = uvec2(WeightsOfSamples(seen, u_samples), 0u);
   gl_FragDepth = DepthOfKind(kind);
 }

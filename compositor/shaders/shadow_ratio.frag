@@ -20,6 +20,7 @@ uniform vec3 u_sun_normal_lux;  // Linear Rec.709.
 layout(location = 0) out vec4 out_ratio;
 
 layout(binding = 0) uniform usampler2D u_visible;  // From affected_pixels.frag.
+layout(binding = 19) uniform usampler2D u_weights;
 
 #ifdef SUN_MAY_CHANGE
 #include "compositor/shaders/sun_transmittance_map.glsl"
@@ -86,19 +87,21 @@ Change ChangeOf(VisibleSurface surface, int component) {
 
 void main() {
   uvec4 seen = texelFetch(u_visible, ivec2(gl_FragCoord.xy), 0);
+  uint weights = texelFetch(u_weights, ivec2(gl_FragCoord.xy), 0).r;
   vec3 ratio = vec3(0.0), airlight = vec3(0.0);
-  float samples = 0.0;
+  float affected = 0.0;
   do {
-    float count = dot(SamplesOf(seen.x), vec4(1.0));
+    float weight = WeightOf(weights);
     uvec4 triangle = TriangleOf(IdOf(seen.x));
     Change change = ChangeOf(VisibleSurfaceOf(VertexOf(triangle.x), VertexOf(triangle.y),
                                          VertexOf(triangle.z), gl_FragCoord.xy),
                              int(ComponentOf(triangle)));
-    ratio += count * change.ratio;
-    airlight += count * change.airlight;
-    samples += count;
+    ratio += weight * change.ratio;
+    airlight += weight * change.airlight;
+    affected += weight;
     seen = uvec4(seen.yzw, 0u);
+    weights >>= 8;
   } while (seen.x != 0u);
-  out_ratio = vec4(RatioOfPixel(ratio, samples), 1.0);
-  WriteAirlight(SampleWeight() * airlight);
+  out_ratio = vec4(RatioOfPixel(ratio, affected), 1.0);
+  WriteAirlight(WeightOfUncovered() * airlight);
 }

@@ -1,17 +1,18 @@
 #version 450 core
-// Shades the virtual objects of a pixel: display-linear color summed over the samples, and their
+// Shades the virtual objects of a pixel: display-linear color times coverage, and the
 // coverage. Each piece of surface (object_pixels.frag) is shaded once. NO_SUN: everything that the
 // pixel shows faces away from the sun.
 //
 // TEXTURED: triangle_id.frag sampled textures. DETAILED: and bumps and emission; some objects may be
 // unlit. Needs TEXTURED and GLOSSY. TRANSLUCENT: some transmit light, or are leaves. Needs DETAILED.
-// BLENDED: some are seen through, and the weights of the samples beside objects are written. Needs
+// BLENDED: some are seen through, and the weight of what is beside objects is written. Needs
 // TEXTURED. GLOSSY: some objects are glossy. This is a
 // permutation, not a test, because Mesa's software renderer executes an `if` regardless of its
 // condition.
 
 #include "compositor/shaders/aerial_fog.glsl"
 #include "compositor/shaders/ggx.glsl"
+#include "compositor/shaders/piece_weights.glsl"
 #include "compositor/shaders/sun_transmittance_map.glsl"
 #include "compositor/shaders/visible_surface.glsl"
 #include "compositor/shaders/material_table.glsl"
@@ -30,6 +31,7 @@ uniform vec3 u_fog_optical_depth[kFogSplits];
 uniform vec3 u_fog_inscattered[kFogSplits];
 
 layout(binding = 0) uniform usampler2D u_visible;  // From object_pixels.frag.
+layout(binding = 19) uniform usampler2D u_weights;  // As piece_weights.glsl; DonorPixel() by piece.
 #ifdef GLOSSY
 layout(binding = 3) uniform sampler2DArray u_environment;  // EnvironmentMap, one layer per roughness.
 uniform vec3 u_sky_mix, u_below_mix;  // Strength above and below the horizon, by the frame's light.
@@ -37,6 +39,7 @@ uniform vec3 u_up;                    // Unit, marker coordinates.
 #endif
 #ifdef TEXTURED
 #include "compositor/shaders/texel_code.glsl"
+#include "compositor/shaders/texture_donor.glsl"
 layout(binding = 4) uniform sampler2DMS u_texels;
 #endif
 
@@ -57,16 +60,19 @@ layout(location = 1) out float out_sample_weight;  // uncovered_samples.glsl.
 #endif
 
 #ifdef TEXTURED
-// Multiplies the material by its textures: the mean of the samples that show the piece.
-MaterialRecord Textured(MaterialRecord record, vec4 samples) {
+// Multiplies the material by its textures: the mean of a pixel's samples that show the piece.
+MaterialRecord Textured(MaterialRecord record, ivec2 pixel, vec4 samples) {
   vec3 color = vec3(0.0);
   vec2 coat = vec2(0.0);
-  ivec2 pixel = ivec2(gl_FragCoord.xy);
   for (int i = 0; i < int(u_samples); ++i) {
     vec4 texel = texelFetch(u_texels, pixel, i);
     color += samples[i] * texel.rgb;
     coat += samples[i] * CoatOfCode(texel.a);
   }
+  // Not even a neighbor shows a surface that is far thinner than a pixel.
+  bool is_missed = samples == vec4(0.0);
+  color = is_missed ? vec3(1.0) : color;
+  coat = is_missed ? vec2(1.0) : coat;
   float share = 1.0 / max(dot(samples, vec4(1.0)), 1.0);
   record.base_color *= color * share;
   record.roughness *= coat.x * share;
@@ -79,7 +85,7 @@ MaterialRecord Textured(MaterialRecord record, vec4 samples) {
 // Share of the pixel of each piece. Blended surfaces lie over the others with their alpha. A pane
 // covers two samples of a pixel that it fills; another one before it may hide one of the two. Pieces
 // of one pane lie side by side. So do all blended pieces that show no more samples than one pane.
-vec4 SharesOf(uvec4 seen) {
+vec4 SharesOf(uvec4 seen, uint weights) {
   vec4 sizes = vec4(0.0), alphas = vec4(0.0), surfaces = vec4(0.0);
   for (int k = 0; k < 4; ++k) {
     vec4 samples = SamplesOf(seen[k]);
@@ -113,16 +119,19 @@ vec4 SharesOf(uvec4 seen) {
       shares[k] *= !counted && before ? 1.0 - hides[other] : 1.0;
     }
   }
-  return shares + (1.0 - blends) * sizes * left / max(u_samples - blended, 1.0);
+  // Without any, weights need not be those of samples.
+  vec4 opaque = vec4(uvec4(weights) >> uvec4(0u, 8u, 16u, 24u) & 255u) / kWeightOfPixel;
+  return blended == 0.0 ? opaque
+                        : shares + (1.0 - blends) * sizes * left / max(u_samples - blended, 1.0);
 }
 #endif
 
 #ifdef DETAILED
-// Mean of a texture's samples that show the piece.
-vec3 MeanOf(sampler2DMS texels, vec4 samples) {
+// Mean of a texture over a pixel's samples that show the piece.
+vec3 MeanOf(sampler2DMS texels, ivec2 pixel, vec4 samples) {
   vec3 sum = vec3(0.0);
   for (int i = 0; i < int(u_samples); ++i) {
-    sum += samples[i] * texelFetch(texels, ivec2(gl_FragCoord.xy), i).rgb;
+    sum += samples[i] * texelFetch(texels, pixel, i).rgb;
   }
   return sum / max(dot(samples, vec4(1.0)), 1.0);
 }
@@ -324,20 +333,22 @@ vec3 ColorOf(VisibleSurface surface, MaterialRecord record
 
 void main() {
   uvec4 seen = texelFetch(u_visible, ivec2(gl_FragCoord.xy), 0);
+  uvec2 weights = texelFetch(u_weights, ivec2(gl_FragCoord.xy), 0).rg;
   vec4 sum = vec4(0.0);
 #ifdef BLENDED
   float covered = 0.0;
-  vec4 shares = SharesOf(seen);
+  vec4 shares = SharesOf(seen, weights.x);
 #endif
   do {
-    vec4 samples = SamplesOf(seen.x);
     uvec4 triangle = TriangleOf(IdOf(seen.x));
     MaterialRecord record = RecordOf(int(ValueOfComponent(int(ComponentOf(triangle)))));
     VisibleSurface surface =
         VisibleSurfaceOf(Moved(VertexOf(triangle.x), record), Moved(VertexOf(triangle.y), record),
                     Moved(VertexOf(triangle.z), record), gl_FragCoord.xy);
 #ifdef TEXTURED
-    record = Textured(record, samples);
+    ivec2 donor = DonorPixel(weights.y & 255u);
+    vec4 samples = SamplesOf(seen.x);
+    record = Textured(record, donor, samples);
 #endif
 #ifdef DETAILED
     DetailRecord detail = DetailOf(int(ValueOfComponent(int(ComponentOf(triangle)))));
@@ -350,14 +361,14 @@ void main() {
           inverse(transpose(mat3(record.row_x.xyz, record.row_y.xyz, record.row_z.xyz))) *
           surface.ambient_without;
       surface.ambient_without = vec3(0.0);
-      leaf.through *= MeanOf(u_emissions, samples);
+      leaf.through *= MeanOf(u_emissions, donor, samples);
     } else {
-      detail.emitted_cd_m2 *= MeanOf(u_emissions, samples);
+      detail.emitted_cd_m2 *= MeanOf(u_emissions, donor, samples);
     }
 #else
-    detail.emitted_cd_m2 *= MeanOf(u_emissions, samples);
+    detail.emitted_cd_m2 *= MeanOf(u_emissions, donor, samples);
 #endif
-    VisibleSurface bumped = Bumped(surface, MeanOf(u_gradients, samples));
+    VisibleSurface bumped = Bumped(surface, MeanOf(u_gradients, donor, samples));
 #ifdef TRANSLUCENT
     vec3 shaded = ColorOf(bumped, record, surface, detail, leaf, ambient_behind);
 #else
@@ -369,15 +380,16 @@ void main() {
 #endif
 #ifdef BLENDED
     sum += shares.x * vec4(color, 1.0);
-    covered += dot(samples, vec4(1.0));
+    covered += WeightOf(weights.x);
     shares = vec4(shares.yzw, 0.0);
 #else
-    sum += dot(samples, vec4(1.0)) / u_samples * vec4(color, 1.0);
+    sum += WeightOf(weights.x) / kWeightOfPixel * vec4(color, 1.0);
 #endif
     seen = uvec4(seen.yzw, 0u);
+    weights >>= 8;
   } while (seen.x != 0u);
   out_color = sum;
 #ifdef BLENDED
-  out_sample_weight = (1.0 - sum.a) / max(u_samples - covered, 1.0);
+  out_sample_weight = (1.0 - sum.a) / max(kWeightOfPixel - covered, 1.0);
 #endif
 }

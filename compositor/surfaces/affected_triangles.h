@@ -42,6 +42,7 @@ class AffectedTriangles {
   std::span<const std::uint32_t> indices() const { return indices_; }
   /// Vertex positions, marker coordinates, metres.
   std::span<const glm::vec3> positions() const { return positions_; }
+  std::span<const glm::vec3> normals() const { return normals_; }
   const std::array<int, kChanges>& ends() const { return ends_; }
   /// The shadow ratios of the kLinearSky triangles, in their order.
   std::span<const LinearShadowRatio> linear_ratios() const { return linear_ratios_; }

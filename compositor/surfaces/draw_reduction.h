@@ -67,6 +67,10 @@ class DrawReduction {
   /// In the order of addition.
   std::span<const AffectedTriangles> phantoms() const { return phantoms_; }
   std::span<const SunFacingTriangles> objects() const { return objects_; }
+  /// Vertex positions where the object was lit. `object`: index in the order of addition.
+  std::span<const glm::vec3> object_positions(std::size_t object) const {
+    return object_positions_[object];
+  }
   /// Max. of AffectedTriangles::MaxLinearChangeFarFrom() over all phantoms.
   float MaxLinearChangeFarFrom(const glm::vec3& eye_m) const;
 

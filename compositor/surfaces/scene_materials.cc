@@ -42,6 +42,15 @@ bool HasDetail(const Material& material) {
           !SharesCoordinates(detail.metallic_roughness_coordinates));
 }
 
+/// Returns whether some texel is not opaque.
+bool HasAlphaBelowOne(const Image<std::uint8_t>& texture) {
+  if (texture.channels() != 4) return false;
+  for (std::size_t i = 3; i < texture.size(); i += 4) {
+    if (texture.data()[i] < 255) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 Result<SceneMaterials> SceneMaterials::Create(const std::vector<PlacedModel>& scene) {
@@ -111,6 +120,22 @@ void SceneMaterials::SetLight(LinearRgb sun, LinearRgb sky) {
 LeafTints SceneMaterials::TintsOf(int placed_model, int material) const {
   const auto found = tints_.find({placed_model, material});
   return found == tints_.end() ? LeafTints{} : found->second;
+}
+
+bool SceneMaterials::HasHoles(int placed_model, int material) const {
+  const Model& model = *Placed(placed_model).model;
+  const Material& of = Of(placed_model, material);
+  if (of.alpha == Material::Alpha::kIgnored) return false;
+  if (of.opacity < 1.0F) return true;
+  if (of.base_color_texture >= 0 &&
+      HasAlphaBelowOne(model.textures[static_cast<std::size_t>(of.base_color_texture)])) {
+    return true;
+  }
+  return std::ranges::any_of(model.meshes, [&](const Mesh& mesh) {
+    return mesh.material == material &&
+           std::ranges::any_of(mesh.details,
+                               [](const VertexDetail& detail) { return detail.color[3] < 1.0F; });
+  });
 }
 
 }  // namespace pleinair::compositor

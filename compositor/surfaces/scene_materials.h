@@ -33,6 +33,9 @@ class SceneMaterials {
   /// the normal map, unit 3 the emission. A missing texture is replaced by white.
   void BindTextures(int placed_model, const Material& material) const;
 
+  /// Returns whether alpha decides where surfaces with a material are seen.
+  bool HasHoles(int placed_model, int material) const;
+
   std::size_t model_count() const { return scene_.size(); }
   /// Returns whether an object has textures or alpha.
   bool HasTextures() const { return has_textures_; }

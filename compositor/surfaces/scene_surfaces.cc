@@ -1,7 +1,6 @@
 #include "compositor/surfaces/scene_surfaces.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -103,6 +102,7 @@ Result<void> SceneSurfaces::SetMix(const std::vector<LitMesh>& lit, const LightM
 
 Result<void> SceneSurfaces::SetSurfaces(const std::vector<LitMesh>& lit) {
   geometries_.clear();
+  outlines_ = {};
   placement_.Clear();  // It refers to the surfaces.
   surfaces_.clear();
   surfaces_.reserve(lit.size());
@@ -151,6 +151,7 @@ void SceneSurfaces::Move(int placed_model, const Mat3& linear, Vec3 translation_
 }
 
 void SceneSurfaces::SetShapes(const std::vector<LitMesh>& lit, std::size_t first) {
+  if (first != outlines_.first_changing) outlines_ = {.first_changing = first};
   std::size_t object = 0;
   for (std::size_t i = 0; i < surfaces_.size(); ++i) {
     const bool is_drawn = surfaces_[i].IsDrawnObject();
@@ -213,8 +214,6 @@ void SceneSurfaces::DrawPhantoms(const gl::GlProgram& program) const {
 
 Result<void> SceneSurfaces::SortObjects(const glm::vec3& to_sun) {
   auto triangles = reduction_.objects().begin();
-  std::vector<std::array<int, 2>> ends;
-  ends.reserve(reduction_.objects().size());
   std::vector<SortedTriangles> sorted;
   sorted.reserve(reduction_.objects().size());
   for (SurfaceBuffers& surface : surfaces_) {
@@ -233,8 +232,7 @@ Result<void> SceneSurfaces::SortObjects(const glm::vec3& to_sun) {
                             materials_.TintsOf(surface.placed_model(), surface.material()),
                             glm::mat4(placement_.MovedBy(surface.placed_model())));
     }
-    ends.push_back({triangles->facing_end(), surface.index_count()});
-    sorted.push_back({triangles->indices(), ends.back(), {}});
+    sorted.push_back({triangles->indices(), triangles->ends(), {}});
     ++triangles;
   }
   if (!objects_sorted_) PLEINAIR_RETURN_IF_ERROR(object_buffer_.SetTriangles(sorted));
@@ -265,6 +263,60 @@ void SceneSurfaces::DrawObjects(const gl::GlProgram& program) const {
     surface.Draw();
     ++object;
   }
+}
+
+void SceneSurfaces::FindOutlines() {
+  outlines_.phantoms.clear();
+  outlines_.objects.clear();
+  for (std::size_t i = 0; i < surfaces_.size(); ++i) {
+    const SurfaceBuffers& surface = surfaces_[i];
+    const bool changes = i >= outlines_.first_changing;
+    if (surface.is_phantom()) {
+      const AffectedTriangles& phantom = reduction_.phantoms()[outlines_.phantoms.size()];
+      outlines_.phantoms.push_back(
+          {OutlineOf(phantom.positions(), phantom.normals(), phantom.indices(), changes), false});
+    } else if (surface.IsDrawnObject()) {
+      const std::size_t at = outlines_.objects.size();
+      const SunFacingTriangles& object = reduction_.objects()[at];
+      outlines_.objects.push_back(
+          {OutlineOf(reduction_.object_positions(at), object.normals(), object.indices(), changes),
+           materials_.HasHoles(surface.placed_model(), surface.material())});
+    }
+  }
+  outlines_.are_found = true;
+}
+
+std::vector<DrawnMesh> SceneSurfaces::DrawnMeshes() {
+  if (!outlines_.are_found) FindOutlines();
+  std::vector<DrawnMesh> phantoms, objects;
+  phantoms.reserve(surfaces_.size());
+  for (const SurfaceBuffers& surface : surfaces_) {
+    const glm::mat4 moved(placement_.MovedBy(surface.placed_model()));
+    if (surface.is_phantom()) {
+      const std::size_t at = phantoms.size();
+      const AffectedTriangles& phantom = reduction_.phantoms()[at];
+      phantoms.push_back({.positions = phantom.positions(),
+                          .indices = phantom.indices(),
+                          .ends = std::span(phantom.ends()).first(AffectedTriangles::kNothing),
+                          .components = phantom_buffer_.components(at),
+                          .outline = outlines_.phantoms[at].edges,
+                          .first_id = static_cast<std::uint32_t>(phantom_buffer_.first_id(at))});
+    } else if (surface.IsDrawnObject()) {
+      const std::size_t at = objects.size();
+      const SunFacingTriangles& object = reduction_.objects()[at];
+      objects.push_back({.positions = reduction_.object_positions(at),
+                         .indices = object.indices(),
+                         .ends = object.ends(),
+                         .components = object_buffer_.components(at),
+                         .outline = outlines_.objects[at].edges,
+                         .marker_from_lit = moved,
+                         .first_id = static_cast<std::uint32_t>(object_buffer_.first_id(at)),
+                         .is_object = true,
+                         .has_holes = outlines_.objects[at].has_holes});
+    }
+  }
+  phantoms.insert(phantoms.end(), objects.begin(), objects.end());
+  return phantoms;
 }
 
 void SceneSurfaces::Draw(const gl::GlProgram& program) const {

@@ -10,6 +10,7 @@
 #include "compositor/light/lit_mesh.h"
 #include "compositor/models/placed_model.h"
 #include "compositor/surfaces/draw_reduction.h"
+#include "compositor/surfaces/drawn_mesh.h"
 #include "compositor/surfaces/image_tiles.h"
 #include "compositor/surfaces/material_table.h"
 #include "compositor/surfaces/scene_materials.h"
@@ -71,10 +72,25 @@ class SceneSurfaces {
   const VisibilityBuffer& object_triangles() const { return object_buffer_; }
   /// Indexed by the values of object_triangles().
   const MaterialTable& object_materials() const { return object_materials_; }
+  /// The sorted surfaces in the order of drawing: DrawPhantoms(), then DrawObjects(). Finds their
+  /// outlines when first called after a change.
+  std::vector<DrawnMesh> DrawnMeshes();
   /// Draws the geometry of all surfaces with `program`, which must be in use.
   void Draw(const gl::GlProgram& program) const;
 
  private:
+  /// What is known of a surface's edges.
+  struct Outline {
+    std::vector<OutlineEdge> edges;
+    bool has_holes = false;
+  };
+  /// Edges by which the processor finds silhouettes.
+  struct Outlines {
+    std::vector<Outline> phantoms = {}, objects = {};
+    std::size_t first_changing = ~std::size_t{0};  // Surfaces from here on change their shape.
+    bool are_found = false;
+  };
+  void FindOutlines();
   /// Returns whether the surfaces are those of `lit`, so that only their light is new.
   bool HasSurfacesOf(const std::vector<LitMesh>& lit) const;
   Result<void> SetSurfaces(const std::vector<LitMesh>& lit);
@@ -91,6 +107,7 @@ class SceneSurfaces {
   DrawReduction reduction_;  // Phantoms and drawn objects among the surfaces, in order.
   VisibilityBuffer phantom_buffer_, object_buffer_;
   MaterialTable object_materials_;
+  Outlines outlines_;
   // Whether object_buffer_ matches reduction_, and object_materials_ the current placement.
   bool objects_sorted_ = false, objects_placed_ = false;
 };

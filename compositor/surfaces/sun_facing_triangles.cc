@@ -17,7 +17,7 @@ constexpr std::size_t kSortedPerBlock = 16'384;
 SunFacingTriangles::SunFacingTriangles(const LitMesh& object)
     : is_translucent_(object.IsTranslucent()),
       indices_(object.indices),
-      facing_end_(static_cast<int>(object.indices.size())) {
+      ends_{static_cast<int>(object.indices.size()), static_cast<int>(object.indices.size())} {
   SetNormals(object);
   has_turned_ = false;
 }
@@ -74,7 +74,7 @@ bool SunFacingTriangles::Sort(const glm::vec3& to_sun) {
       for (std::size_t k = 3 * i; k < 3 * i + 3; ++k) indices_[kept++] = indices_[k];
     }
   }
-  facing_end_ = static_cast<int>(kept);
+  ends_[0] = static_cast<int>(kept);
   std::copy(turned_away_.begin(), turned_away_.end(),
             indices_.begin() + static_cast<std::ptrdiff_t>(kept));
   return true;
@@ -82,8 +82,8 @@ bool SunFacingTriangles::Sort(const glm::vec3& to_sun) {
 
 bool SunFacingTriangles::IncludeAll() {
   sorted_for_.reset();
-  const int before = std::exchange(facing_end_, static_cast<int>(indices_.size()));
-  return before != facing_end_;
+  const int before = std::exchange(ends_[0], static_cast<int>(indices_.size()));
+  return before != ends_[0];
 }
 
 }  // namespace pleinair::compositor

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
@@ -27,7 +28,11 @@ class SunFacingTriangles {
   bool IncludeAll();
   /// The triangles that may face the sun come first.
   std::span<const std::uint32_t> indices() const { return indices_; }
-  int facing_end() const { return facing_end_; }
+  /// Of the vertices, unit.
+  std::span<const glm::vec3> normals() const { return normals_; }
+  int facing_end() const { return ends_[0]; }
+  /// One past the last index of the triangles that may face the sun, and of all.
+  std::span<const int> ends() const { return ends_; }
 
   /// A triangle faces away if the cosine between sun and normal is below −kMargin at all corners.
   /// Sun and normals together may move by some degrees before triangles are sorted again.
@@ -43,7 +48,7 @@ class SunFacingTriangles {
 
   bool has_turned_ = false;
   std::optional<glm::vec3> sorted_for_;
-  int facing_end_ = 0;
+  std::array<int, 2> ends_{};
 };
 
 }  // namespace pleinair::compositor

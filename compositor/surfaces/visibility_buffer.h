@@ -48,6 +48,12 @@ class VisibilityBuffer {
 
   /// Number of a mesh's first triangle; the others follow.
   int first_id(std::size_t mesh) const { return first_ids_[mesh]; }
+  /// Components of a mesh's vertices.
+  std::span<const std::uint32_t> components(std::size_t mesh) const {
+    const std::size_t end =
+        mesh + 1 < first_vertices_.size() ? first_vertices_[mesh + 1] : components_.size();
+    return std::span(components_).subspan(first_vertices_[mesh], end - first_vertices_[mesh]);
+  }
   /// Binds the shaders' table to units 1 and 6, and the values by component to unit 7.
   void Bind() const;
   /// Binds the triangles' linear shadow ratios to unit 1.

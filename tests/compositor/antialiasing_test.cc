@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <random>
+#include <utility>
 
 #include "compositor/antialiasing.h"
 #include "compositor/surfaces/sample_places.h"
@@ -40,13 +41,127 @@ double TotalLight(const RgbImage& image) {
 /// The board's area in pixels.
 const double kBoard_px2 = 0.8 * 0.5 * kCamera.fx * kCamera.fx / 9.0;
 
-TEST(ComposerAntialiasing, TheReferenceHasTheAreaOfABoardAndEdgesOfManyLevels) {
-  const RgbImage image = Compose({WhiteBoard()}, EvenPicture(0), kCamera, kSunLux,
-                                 Using(AntialiasingMethod::kReference));
-  EXPECT_NEAR(TotalLight(image) / kBoard_px2, 1.0, 5e-4);
-  std::array<bool, 256> seen{};
-  for (std::size_t i = 0; i < image.size(); i += 3) seen[image.data()[i]] = true;
-  EXPECT_GT(std::count(seen.begin(), seen.end(), true), 30);
+TEST(ComposerAntialiasing, ManyPlacesHaveTheAreaOfABoardAndEdgesOfManyLevels) {
+  for (const AntialiasingMethod method :
+       {AntialiasingMethod::kReference, AntialiasingMethod::kSubpixel}) {
+    const RgbImage image = Compose({WhiteBoard()}, EvenPicture(0), kCamera, kSunLux, Using(method));
+    EXPECT_NEAR(TotalLight(image) / kBoard_px2, 1.0, 5e-4) << NameOf(method);
+    std::array<bool, 256> seen{};
+    for (std::size_t i = 0; i < image.size(); i += 3) seen[image.data()[i]] = true;
+    EXPECT_GT(std::count(seen.begin(), seen.end(), true), 30) << NameOf(method);
+  }
+}
+
+/// Root mean square of the difference of linear light, over pixels that differ from black.
+double Difference(const RgbImage& image, const RgbImage& truth) {
+  double squares = 0.0, count = 0.0;
+  for (std::size_t i = 0; i < image.size(); ++i) {
+    const double of_truth = LinearFromSrgb8()[truth.data()[i]];
+    const double difference = LinearFromSrgb8()[image.data()[i]] - of_truth;
+    squares += difference * difference;
+    count += of_truth > 0.0 && of_truth < 1.0 ? 1.0 : 0.0;
+  }
+  return std::sqrt(squares / count);
+}
+
+TEST(ComposerAntialiasing, SubpixelHasTheEdgesOfTheReference) {
+  const auto draw = [](AntialiasingMethod method, int places) {
+    return Compose({WhiteBoard(0.2)}, EvenPicture(0), kCamera, kSunLux, Using(method, places));
+  };
+  const RgbImage truth = draw(AntialiasingMethod::kReference, 64);
+  EXPECT_LT(Difference(draw(AntialiasingMethod::kSubpixel, 64), truth), 0.01);
+  EXPECT_LT(Difference(draw(AntialiasingMethod::kSubpixel, 16), truth), 0.05);
+  EXPECT_GT(Difference(draw(AntialiasingMethod::kMultisample, 64), truth), 0.07) << "control";
+}
+
+TEST(ComposerAntialiasing, SubpixelKeepsTheLightOfWhatMovesOverAPixel) {
+  CameraModel camera = kCamera;
+  camera.width = 64;
+  camera.height = 48;
+  camera.cx = 31.5;
+  camera.cy = 23.5;
+  Model model = MakeBox({-0.06, -0.012, 0}, {0.06, 0.012, 0}, 1.0F);
+  model.materials.front().detail.unlit = true;
+  PlacedModel placed = Place(model, false);
+  placed.linear = Mat3{0.8, -0.6, 0, 0.6, 0.8, 0, 0, 0, 1};
+  const auto solver = LightSolver::Create({placed}, {.rays_per_vertex = 64});
+  auto composer = Composer::Create(camera, {placed}, Using(AntialiasingMethod::kSubpixel));
+  ASSERT_TRUE(solver && composer);
+  const SouthernSun light;
+  ASSERT_TRUE((*composer)->SetLight((*solver)->Solve(light, Mat3{}), light, Mat3{},
+                                    (*solver)->RadianceFromBelow(light, Mat3{})));
+  RgbImage black(camera.width, camera.height, 3);
+  std::fill_n(black.data(), black.size(), std::uint8_t{0});
+  const double expected = 0.12 * 0.024 * 100.0 * 100.0;  // 100 pixels a metre.
+  constexpr int kSteps = 25;
+  for (int step = 0; step < kSteps; ++step) {
+    Transform<Camera, Marker> moved = kFromAbove;
+    moved.translation_m.x += 0.01 * step / kSteps;
+    moved.translation_m.y += 0.004 * step / kSteps;
+    const auto image = (*composer)->Compose(black.view(), moved, {1, 1, 1});
+    ASSERT_TRUE(image);
+    EXPECT_NEAR(TotalLight(*image) / expected, 1.0, 0.003) << step;
+  }
+  EXPECT_GT((*composer)->MixedPixels(), 0.005);
+  EXPECT_LT((*composer)->MixedPixels(), 0.1);
+}
+
+/// A board 0.3 px wide with a texture that is red everywhere, almost along the image's rows.
+PlacedModel RedWire() {
+  Model model = MakeBox({-0.9, -0.0015, 0}, {0.9, 0.0015, 0}, 1.0F);
+  Image<std::uint8_t> red(2, 2, 3);
+  for (std::size_t i = 0; i < red.size(); ++i) red.data()[i] = i % 3 == 0 ? 255 : 0;
+  model.textures.push_back(std::move(red));
+  model.materials.front().detail.unlit = true;
+  model.materials.front().base_color_texture = 0;
+  model.materials.front().alpha = Material::Alpha::kIgnored;
+  model.meshes.front().uvs.assign(model.meshes.front().positions.size(), {0.5F, 0.5F});
+  PlacedModel placed = Place(model, false);
+  placed.linear = Mat3{0.999, -0.04471, 0, 0.04471, 0.999, 0, 0, 0, 1};
+  return placed;
+}
+
+TEST(ComposerAntialiasing, ThinTexturedThingsHaveNoGapsAndTheirColor) {
+  const RgbImage image =
+      Compose({RedWire()}, EvenPicture(0), kCamera, kSunLux, Using(AntialiasingMethod::kSubpixel));
+  for (int x = 100; x < 220; ++x) {
+    double light = 0.0;
+    for (int y = 0; y < kCamera.height; ++y) {
+      light += LinearFromSrgb8()[image(x, y, 0)];
+      EXPECT_EQ(image(x, y, 1), 0) << x << ' ' << y;
+    }
+    EXPECT_NEAR(light, 0.3, 0.04) << x;
+  }
+}
+
+TEST(ComposerAntialiasing, SubpixelCoversObjectsByTheEdgesOfRealThings) {
+  // A real plate above the board hides its middle.
+  PlacedModel plate = Place(MakeBox({-0.1, -0.6, 0.5}, {0.1, 0.6, 0.5}, 0.3F), true);
+  plate.linear = Mat3{0.9689, -0.2474, 0, 0.2474, 0.9689, 0, 0, 0, 1};
+  const auto draw = [&](AntialiasingMethod method) {
+    return Compose({plate, WhiteBoard()}, EvenPicture(0), kCamera, kSunLux, Using(method));
+  };
+  const RgbImage truth = draw(AntialiasingMethod::kReference);
+  EXPECT_LT(Difference(draw(AntialiasingMethod::kSubpixel), truth), 0.012);
+  EXPECT_GT(Difference(draw(AntialiasingMethod::kMultisample), truth), 0.06) << "control";
+}
+
+TEST(ComposerAntialiasing, CutOutsKeepTheRenderersSamples) {
+  Model model = MakeBox({-0.4, -0.25, 0}, {0.4, 0.25, 0}, 1.0F);
+  Image<std::uint8_t> texture(2, 2, 4);
+  std::fill_n(texture.data(), texture.size(), std::uint8_t{255});
+  texture(0, 0, 3) = 0;
+  model.textures.push_back(std::move(texture));
+  model.materials.front().detail.unlit = true;
+  model.materials.front().base_color_texture = 0;
+  model.meshes.front().uvs = {{0.1F, 0.2F}, {0.9F, 0.1F}, {0.8F, 0.9F}, {0.2F, 0.9F}};
+  const PlacedModel placed = Place(model, false);
+  const auto draw = [&](AntialiasingMethod method) {
+    return Compose({placed}, EvenPicture(0), kCamera, kSunLux, Using(method));
+  };
+  const RgbImage samples = draw(AntialiasingMethod::kMultisample);
+  const RgbImage image = draw(AntialiasingMethod::kSubpixel);
+  EXPECT_TRUE(std::equal(image.data(), image.data() + image.size(), samples.data()));
 }
 
 TEST(ComposerAntialiasing, NoneHasTwoLevelsAndFourSamplesHaveFive) {
@@ -88,7 +203,7 @@ TEST(ComposerAntialiasing, AllMethodsAgreeAwayFromEdges) {
   };
   const RgbImage samples = draw(AntialiasingMethod::kMultisample);
   for (const AntialiasingMethod method :
-       {AntialiasingMethod::kNone, AntialiasingMethod::kReference}) {
+       {AntialiasingMethod::kSubpixel, AntialiasingMethod::kNone, AntialiasingMethod::kReference}) {
     const RgbImage image = draw(method);
     // The cube's top, its shadow to the north, and the open ground.
     for (const Vec3 point : {Vec3{0, 0, 0.3}, Vec3{0, 0.3, 0}, Vec3{0.5, -0.3, 0}}) {
@@ -107,7 +222,7 @@ TEST(ComposerAntialiasing, AnImageOfOnePixelIsTheMeanOfItsPlaces) {
   for (const AntialiasingMethod method : kAntialiasingMethods) {
     const RgbImage image = Compose({WhiteBoard(0.0)}, black, camera, kSunLux, Using(method));
     const double covered = LinearFromSrgb8()[image(0, 0, 0)];
-    if (method == AntialiasingMethod::kReference) {
+    if (method == AntialiasingMethod::kReference || method == AntialiasingMethod::kSubpixel) {
       // The board is wider than the pixel, and 2/3 of it high.
       const auto places = SamplePlaces(64);
       const auto on_board = std::count_if(places.begin(), places.end(), [](glm::vec2 place) {

@@ -79,13 +79,14 @@ TEST(BenchShadows, WithAsManyTexelsEachHasZGafBeforeCascadesBeforeThePlainMap) {
 
 TEST(BenchAntialiasing, ComparesMethodsWithTheTruth) {
   const RunResult run = RunPleinair({"bench", "antialiasing", "--quick", "--scenes", "boards",
-                                     "--methods", "none,msaa", "--json"});
+                                     "--methods", "none,msaa,subpixel", "--json"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const std::map<std::string, json> rows = RowsByMethod(run.out);
-  ASSERT_EQ(rows.size(), 2U);
+  ASSERT_EQ(rows.size(), 3U);
   // Edges at random angles: 0.253 for the center alone, 0.095 for four samples.
   EXPECT_NEAR(rows.at("none").at("silhouette_rmse").get<double>(), 0.253, 0.05);
   EXPECT_NEAR(rows.at("msaa").at("silhouette_rmse").get<double>(), 0.095, 0.02);
+  EXPECT_LT(rows.at("subpixel").at("silhouette_rmse").get<double>(), 0.03);
   for (const char* key : {"rmse", "shadow_rmse", "inside_rmse", "worst", "shimmer", "truth_shimmer",
                           "ms", "cpu_ms", "ratio_to_none"}) {
     EXPECT_TRUE(rows.at("msaa").contains(key)) << key;

@@ -139,10 +139,15 @@ Json SurfaceColorsJson(const std::vector<session::SurfaceColorSummary>& colors) 
 
 /// Samples or places of a pixel; null if nothing was drawn.
 Json SamplesOf(const ReplayedFilm& film) {
-  using Method = compositor::AntialiasingMethod;
   if (!film.samples) return {};
-  if (film.antialiasing.method == Method::kNone) return 1;
-  return film.antialiasing.method == Method::kReference ? film.antialiasing.places : *film.samples;
+  if (film.antialiasing.method == compositor::AntialiasingMethod::kNone) return 1;
+  return film.antialiasing.HasPlaces() ? film.antialiasing.places : *film.samples;
+}
+
+/// Share of the drawn pixels with coverage at places; null if nothing was drawn.
+Json MixedPixelsOf(const ReplayReport& report) {
+  if (!report.light || !report.film.samples) return {};
+  return Rounded(report.light->camera.mixed_pixels);
 }
 
 /// The lens that the objects are seen through.
@@ -330,7 +335,8 @@ std::string ReportJson(const ReplayReport& report) {
   json["virtual_objects"] = report.scene.virtual_objects;
   json["phantoms"] = report.scene.phantoms;
   json["antialiasing"] = {{"method", compositor::NameOf(report.film.antialiasing.method)},
-                          {"samples", SamplesOf(report.film)}};
+                          {"samples", SamplesOf(report.film)},
+                          {"mixed_pixels", MixedPixelsOf(report)}};
   json["lens"] = report.light ? LensJson(report.light->camera) : Json();
   json["light"] = report.light ? LightJson(*report.light) : Json();
   if (report.light) json["light"]["changes"] = ChangesJson(report.light_changes);

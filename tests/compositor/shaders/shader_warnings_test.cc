@@ -9,6 +9,7 @@
 #include "compositor/embedded_shaders.h"
 #include "compositor/lens/lens_views.h"
 #include "compositor/lens/real_occluders.h"
+#include "compositor/passes/coverage_pass.h"
 #include "compositor/passes/object_pass.h"
 #include "compositor/passes/place_mean.h"
 #include "compositor/passes/shadow_debug_view.h"
@@ -92,6 +93,7 @@ TEST_F(ShaderWarnings, AreNoneOfPassesAndPicture) {
       ExpectCreated(ObjectPass::Create(detailed, by_places));
     }
   }
+  for (const bool textured : {false, true}) ExpectCreated(CoveragePass::Create(4, textured));
   ExpectCreated(PlaceMean::Create(32, 24, {AntialiasingMethod::kReference, 4}));
   for (const bool blended : {false, true}) ExpectCreated(ShadowRatioPass::Create(blended));
   ExpectCreated(ShadowDebugView::Create(SmallMaps(shadows::ShadowMethod::kSunDisc), 32, 24));

@@ -76,11 +76,14 @@ TEST(ReportJson, StatesTheSamplesThatTheRendererGave) {
   };
   EXPECT_EQ(samples(), nullptr) << "nothing is drawn";
   report.film.samples = 2;
+  report.film.antialiasing.method = compositor::AntialiasingMethod::kMultisample;
   EXPECT_EQ(samples(), 2);
   report.film.antialiasing.method = compositor::AntialiasingMethod::kNone;
   EXPECT_EQ(samples(), 1);
   report.film.antialiasing.method = compositor::AntialiasingMethod::kReference;
   report.film.antialiasing.places = 16;
+  EXPECT_EQ(samples(), 16);
+  report.film.antialiasing.method = compositor::AntialiasingMethod::kSubpixel;
   EXPECT_EQ(samples(), 16);
 }
 
