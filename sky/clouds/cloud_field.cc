@@ -247,6 +247,12 @@ double CloudField::Extinction(Vec3 point_m, double seconds) const {
   return above <= height ? column / height : 0.0;
 }
 
+double CloudField::MostExtinction() const {
+  // Depth grows with the noise, and depth over height with the depth.
+  const double deepest = noise_.empty() ? uniform_depth_ : depths_.back();
+  return deepest > 0.0 ? deepest / ColumnHeight(deepest) : 0.0;
+}
+
 double CloudField::DepthAlong(Vec3 from_m, Vec3 up, double seconds, int max_steps) const {
   double sum = 0.0;
   March(

@@ -51,6 +51,9 @@ class CloudField {
                                            flat_share_ + kLeastHeight * (1.0 - flat_share_), 1.0);
   }
 
+  /// A bound of the extinction, per metre.
+  double MostExtinction() const;
+
   /// Extinction at a point, per metre.
   double Extinction(Vec3 point_m, double seconds) const;
 

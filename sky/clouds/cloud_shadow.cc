@@ -1,24 +1,10 @@
 #include "sky/clouds/cloud_shadow.h"
 
 #include <cmath>
-#include <numbers>
 
-#include "sky/sun/solar_disc.h"
+#include "sky/clouds/sun_disc_rays.h"
 
 namespace pleinair::clouds {
-namespace {
-
-constexpr int kDiscRays = 64;
-
-/// Positions of equal area in the unit disc, on a sunflower's spiral (Vogel 1979).
-Vec2 InUnitDisc(int i) {
-  constexpr double kGoldenAngle = 2.399963229728653;
-  const double radius = std::sqrt((i + 0.5) / kDiscRays);
-  return {radius * std::cos(kGoldenAngle * i), radius * std::sin(kGoldenAngle * i)};
-}
-
-}  // namespace
-
 CloudFields MakeFields(const std::vector<CloudLayer>& layers) {
   CloudFields fields;
   fields.reserve(layers.size());
@@ -33,7 +19,7 @@ double SunTransmittance(const CloudFields& fields, Vec3 point_m, Direction<World
   const Vec3 across = sun.z < 0.999 ? Normalized(Cross(sun, {0.0, 0.0, 1.0})) : Vec3{1.0, 0.0, 0.0};
   const Vec3 upwards = Cross(across, sun);
   double sum = 0.0;
-  for (int i = 0; i < kDiscRays; ++i) {
+  for (int i = 0; i < kSunDiscRays; ++i) {
     const Vec2 in_disc = InUnitDisc(i) * sky::kSolarRadiusAt1Au;
     const Vec3 offset = across * in_disc.x + upwards * in_disc.y;
     double depth = 0.0;
@@ -48,7 +34,7 @@ double SunTransmittance(const CloudFields& fields, Vec3 point_m, Direction<World
     }
     sum += std::exp(-depth);
   }
-  return sum / kDiscRays;
+  return sum / kSunDiscRays;
 }
 
 double PointSunTransmittance(const CloudFields& fields, Vec3 point_m, Direction<World> to_sun,

@@ -13,6 +13,7 @@
 #include "sky/clouds/cloud_phase.h"
 #include "sky/clouds/cloud_slab.h"
 #include "sky/clouds/higher_orders.h"
+#include "sky/clouds/tilted_columns.h"
 
 namespace pleinair::clouds {
 namespace {
@@ -23,27 +24,18 @@ const SlabTable& TableOf(const CloudField& field) {
   return field.layer().kind == CloudKind::kCirrus ? SlabTable::Ice() : SlabTable::Water();
 }
 
-/// Shares of what arrives at a layer, means over the area.
-struct LayerShares {
-  double reflected = 0.0, direct = 0.0, diffuse_reflected = 0.0;
-};
-
+/// Means over the area.
 LayerShares SharesOf(const CloudField& field, Direction<World> to_sun, double seconds) {
   constexpr int kSamples = 100;
-  const SlabTable& table = TableOf(field);
-  const double cosine = std::max(to_sun.xyz.z, SlabTable::kMinCosine);
-  LayerShares sum;
-  for (int i = 0; i < kSamples * kSamples; ++i) {
+  const auto place = [](int i) {
     const int column = i % kSamples, row = i / kSamples;
-    const Vec3 ground{((column + 0.5) / kSamples - 0.5) * kCoverSquare_m,
-                      ((row + 0.5) / kSamples - 0.5) * kCoverSquare_m, 0.0};
-    const double slant = field.DepthAlong(ground, to_sun.xyz, seconds);
-    sum.reflected += table.Reflected(slant * cosine, cosine);
-    sum.direct += std::exp(-slant);
-    sum.diffuse_reflected += table.DiffuseReflected(field.ColumnDepth(ground.x, ground.y, seconds));
-  }
-  constexpr double kShare = 1.0 / (kSamples * kSamples);
-  return {sum.reflected * kShare, sum.direct * kShare, sum.diffuse_reflected * kShare};
+    return Vec3{((column + 0.5) / kSamples - 0.5) * kCoverSquare_m,
+                ((row + 0.5) / kSamples - 0.5) * kCoverSquare_m, 0.0};
+  };
+  return SharesOfTiltedColumns(
+      TableOf(field), to_sun.xyz.z, kSamples * kSamples,
+      [&](int i) { return field.DepthAlong(place(i), to_sun.xyz, seconds); },
+      [&](int i) { return field.ColumnDepth(place(i).x, place(i).y, seconds); });
 }
 
 }  // namespace
