@@ -57,7 +57,7 @@ class Composer {
 
   /// Samples per rendered pixel that the renderer offers: 4, or its maximum if that is lower.
   virtual int samples() const = 0;
-  /// Share of the drawn pixels whose coverage was computed at many places, over all images since
+  /// Share of the drawn pixels whose coverage was computed at many places. All images count since
   /// the method of antialiasing was set. 0 for methods that compute none.
   virtual double MixedPixels() const = 0;
 

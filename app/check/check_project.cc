@@ -107,6 +107,10 @@ Result<SiteFacts> LookAtSite(const CheckRequest& request) {
   PLEINAIR_ASSIGN_OR_RETURN(const auto pipeline, session::Pipeline::Create(camera, scene, options));
   SiteFacts facts;
   facts.has_objects = !scene.objects.empty();
+  facts.shadow_casters = static_cast<int>(
+      std::ranges::count_if(scene.phantoms, [](const scene::ModelReference& phantom) {
+        return !phantom.surface || phantom.surface->kind != scene::SurfaceKind::kGround;
+      }));
   facts.lens_guess = LensGuess(request);
   facts.sun_elevation_deg =
       ToDegrees(scene::SunOver(scene.place_time, scene.place_time.start).elevation);

@@ -7,6 +7,7 @@
 
 #include "app/replay/light_contradiction.h"
 #include "base/units.h"
+#include "compositor/photometry/sun_sky_ratio.h"
 
 namespace pleinair::app {
 namespace {
@@ -16,10 +17,6 @@ using Source = compositor::MeasuredLight::Source;
 
 // Compasses of phones are off by so much; replay corrects it.
 constexpr double kDoubtful_deg = 5.0;
-// As many as the light estimate needs to deny the sun (sun_sky_ratio.cc).
-constexpr int kEnoughEdges = 6;
-// With a lesser share of edges that show a step, the light estimate sees no sun.
-constexpr double kSunShare = 0.30;
 // Trees and houses beside the scene hide edges where they shade so much.
 constexpr double kNoticeableShade = 0.05;
 
@@ -29,7 +26,7 @@ constexpr const char* kCompare = "compare the object's shadow in first.png with 
 SiteFinding UnmeasuredHeading(const SiteFacts& facts) {
   const compositor::MeasuredLight& light = *facts.light;
   const compositor::LightEvidence& evidence = light.evidence;
-  if (facts.shadows.casters == 0) {
+  if (facts.shadow_casters == 0) {
     return {"heading", Verdict::kUnknown, "nothing is described that casts a shadow",
             "describe what does, [[box]] or [[wall]] (docs/guide/reference/scenes.md), or " +
                 std::string(kCompare)};
@@ -40,11 +37,11 @@ SiteFinding UnmeasuredHeading(const SiteFacts& facts) {
             "film from where one is seen, describe the ground it falls on, or " +
                 std::string(kCompare)};
   }
-  if (evidence.edges < kEnoughEdges) {
+  if (evidence.edges < compositor::kMinEdgesForNoSun) {
     return {"heading", Verdict::kUnknown,
             fmt::format("the shadows of described surfaces are short or hidden: {} places of their "
                         "edges are in view, and {} are needed",
-                        evidence.edges, kEnoughEdges),
+                        evidence.edges, compositor::kMinEdgesForNoSun),
             "film more of their shadows, describe something taller, or " + std::string(kCompare)};
   }
   const bool is_sunny = light.sun_source == Source::kMeasured && light.sun_shines;
@@ -52,7 +49,7 @@ SiteFinding UnmeasuredHeading(const SiteFacts& facts) {
     return {"heading", Verdict::kUnknown, "shade of what is not described hides the shadows' edges",
             "describe what casts it, or " + std::string(kCompare)};
   }
-  if (!is_sunny && evidence.edges_with_contrast < kSunShare) {
+  if (!is_sunny && evidence.edges_with_contrast < compositor::kSunShare) {
     return {"heading", Verdict::kDoubtful,
             fmt::format("{} places of shadow edges are expected in view, and few of them show one",
                         evidence.edges),
@@ -130,14 +127,7 @@ SiteFinding SkyFinding(const SiteFacts& facts) {
   if (!light.sun_shines) {
     return {"sky", Verdict::kGood, "the frames show no sunlight, as the scene describes", ""};
   }
-  std::string text =
-      fmt::format("the sun gives level ground {:.1f} times the sky's light", light.sun_to_sky);
-  if (light.sun_to_sky_error)
-    text += fmt::format(" within {:.0f} %", 100 * *light.sun_to_sky_error);
-  return {"sky", Verdict::kGood,
-          text + fmt::format("; described are {:.1f}, and replay takes the measured",
-                             light.sun_to_sky_stated),
-          ""};
+  return {"sky", Verdict::kGood, "the frames show sunlight, as the scene describes", ""};
 }
 
 }  // namespace pleinair::app

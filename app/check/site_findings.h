@@ -32,11 +32,6 @@ struct TrajectoryFit {
   Result<session::TrajectorySummary> summary{};  ///< Error: it does not fit, and why.
 };
 
-/// What is known of a site's shadows beside the light estimate.
-struct ShadowFacts {
-  int casters = 0;  ///< Described surfaces that can cast a shadow: all but level ground.
-};
-
 /// Measurements of a site: the input of JudgeSite().
 struct SiteFacts {
   std::vector<FrameFacts> frames;  ///< Those that show the marker.
@@ -50,7 +45,7 @@ struct SiteFacts {
   std::vector<std::string> placement;  ///< PlacementWarnings(), one sentence each.
   std::int64_t with_pose = 0;  ///< Frames with a pose, by the marker, anchors or a trajectory.
   std::optional<TrajectoryFit> trajectory{};  ///< Nothing: the scene has none.
-  ShadowFacts shadows;
+  int shadow_casters = 0;  ///< Described surfaces that can cast a shadow: all but level ground.
 };
 
 /// Judges: frames, if some are lost, marker, trajectory, if there is one, size, view, blur,

@@ -9,7 +9,7 @@ namespace pleinair::compositor {
 namespace {
 
 constexpr std::size_t kMaxPieces = 4;
-constexpr std::uint32_t kSamplesShift = 28;  // Of shaders/visibility_buffer_layout.glsl.
+constexpr std::uint32_t kSamplesShift = 28;  // As shaders/visibility_buffer_layout.glsl.
 
 }  // namespace
 

@@ -13,12 +13,12 @@ namespace pleinair::compositor {
 /// The pieces of surface that a pixel shows, as shaders/covered_pixels.frag reads them. Weights are
 /// shares of the pixel in units of 1/64, eight bits each, from the lowest on.
 struct PixelPieces {
-  /// Up to four numbers of triangles of objects, each with the samples of the renderer that show
-  /// its piece (VisibleTriangle of shaders/visibility_buffer_layout.glsl); 0 from the first missing
-  /// one on.
+  /// Up to four numbers of triangles of objects; 0 from the first missing one on. Each has the
+  /// renderer's samples that show its piece: VisibleTriangle of
+  /// shaders/visibility_buffer_layout.glsl.
   std::array<std::uint32_t, 4> objects{};
-  std::array<std::uint32_t, 4>
-      real{};  ///< Of real surfaces whose light may change, without samples.
+  /// The same without samples, for real surfaces whose light may change.
+  std::array<std::uint32_t, 4> real{};
   std::uint32_t object_weights = 0, real_weights = 0;
   /// The least kind of a visible triangle, or kNoKind.
   std::uint32_t object_kind = kNoKind, real_kind = kNoKind;
@@ -31,8 +31,9 @@ inline constexpr int kWeightOfPixel = 64;
 inline constexpr std::uint32_t kNoTriangle = ~0U;
 
 /// Groups what the places of a pixel show into pieces of surface, by the rules of
-/// shaders/object_pixels.frag and affected_pixels.frag. Of more than four, the smallest are counted
-/// with the piece of the same surface, or else with the largest. One object sorts many pixels.
+/// shaders/object_pixels.frag and affected_pixels.frag. The fifth largest and smaller ones are
+/// counted with the piece of the same surface, or else with the largest. One object sorts many
+/// pixels.
 class PieceSorter {
  public:
   /// `triangles` must outlive the sorter. `pixel_angle`: PixelView::PixelAngle().
@@ -74,7 +75,7 @@ class PieceSorter {
 
   std::span<const ScreenTriangle> triangles_;
   float pixel_angle_ = 0.0F;
-  // Of the current pixel.
+  // The current pixel.
   bool has_holes_ = false;
   std::size_t count_ = 0, piece_count_ = 0;
   std::array<FoundTriangle, kWeightOfPixel> found_;

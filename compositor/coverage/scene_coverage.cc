@@ -21,7 +21,7 @@ TriangleAtPixel::Plane PlaneAt(const glm::dvec3& plane, const glm::dvec3& at) {
           static_cast<float>(plane.y)};
 }
 
-/// Of two triangles with a common edge, whose planes are negatives, one has it.
+/// Planes of a common edge of two triangles are negatives: one of the two has the edge.
 bool HasEdge(const TriangleAtPixel::Plane& edge) {
   return edge[1] > 0.0F || (edge[1] == 0.0F && edge[2] > 0.0F);
 }

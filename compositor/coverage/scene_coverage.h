@@ -33,7 +33,7 @@ class SceneCoverage {
                    std::span<PixelPieces> pieces);
 
   std::size_t count_ = 0, samples_at_ = 0;  // samples_at_: 0 without samples.
-  std::vector<float> x_, y_;                // Of the places, filled up to whole blocks.
+  std::vector<float> x_, y_;                // The places, filled up to whole blocks.
   ScreenTriangles triangles_;
   /// Rows of the image that are measured together.
   struct Band {

@@ -45,7 +45,7 @@ struct Extent {
   }
 };
 
-/// Of the part before the near plane.
+/// The rectangle of the part before the near plane.
 Extent ExtentOf(const Corners& corners, double near_m) {
   Extent extent;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -108,17 +108,24 @@ double PixelView::PixelAngle() const {
   return 2.0 * size / (width * glm::length(across - glm::dot(across, ahead) * ahead));
 }
 
-void ScreenTriangles::ProjectPositions(std::span<const DrawnMesh> meshes, const PixelView& view) {
+template <typename Count>
+void ScreenTriangles::DivideIntoBlocks(std::span<const DrawnMesh> meshes, const Count& count_of) {
   blocks_.clear();
-  first_vertices_.clear();
-  std::size_t vertices = 0;
   for (std::size_t m = 0; m < meshes.size(); ++m) {
-    first_vertices_.push_back(vertices);
-    const std::size_t count = meshes[m].positions.size();
-    vertices += count;
+    const std::size_t count = count_of(meshes[m]);
     for (std::size_t first = 0; first < count; first += kElementsPerBlock) {
       blocks_.push_back({m, first, std::min(count, first + kElementsPerBlock)});
     }
+  }
+}
+
+void ScreenTriangles::ProjectPositions(std::span<const DrawnMesh> meshes, const PixelView& view) {
+  DivideIntoBlocks(meshes, [](const DrawnMesh& mesh) { return mesh.positions.size(); });
+  first_vertices_.clear();
+  std::size_t vertices = 0;
+  for (const DrawnMesh& mesh : meshes) {
+    first_vertices_.push_back(vertices);
+    vertices += mesh.positions.size();
   }
   projected_.resize(vertices);
   glm::dmat4 pixels_from_clip(1.0);
@@ -138,13 +145,7 @@ void ScreenTriangles::ProjectPositions(std::span<const DrawnMesh> meshes, const 
 }
 
 void ScreenTriangles::MarkEdges(std::span<const DrawnMesh> meshes, const PixelView& view) {
-  blocks_.clear();
-  for (std::size_t m = 0; m < meshes.size(); ++m) {
-    const std::size_t count = meshes[m].outline.size();
-    for (std::size_t first = 0; first < count; first += kElementsPerBlock) {
-      blocks_.push_back({m, first, std::min(count, first + kElementsPerBlock)});
-    }
-  }
+  DivideIntoBlocks(meshes, [](const DrawnMesh& mesh) { return mesh.outline.size(); });
   if (lines_.size() < blocks_.size()) lines_.resize(blocks_.size());
   const double near_m = view.NearM();
   ParallelFor(blocks_.size(), 0, [&](std::size_t i) {
@@ -175,13 +176,7 @@ void ScreenTriangles::MarkEdges(std::span<const DrawnMesh> meshes, const PixelVi
 }
 
 void ScreenTriangles::FindTriangles(std::span<const DrawnMesh> meshes, const PixelView& view) {
-  blocks_.clear();
-  for (std::size_t m = 0; m < meshes.size(); ++m) {
-    const std::size_t count = meshes[m].indices.size() / 3;
-    for (std::size_t first = 0; first < count; first += kElementsPerBlock) {
-      blocks_.push_back({m, first, std::min(count, first + kElementsPerBlock)});
-    }
-  }
+  DivideIntoBlocks(meshes, [](const DrawnMesh& mesh) { return mesh.indices.size() / 3; });
   if (of_blocks_.size() < blocks_.size()) of_blocks_.resize(blocks_.size());
   const double near_m = view.NearM();
   ParallelFor(blocks_.size(), 0, [&](std::size_t i) {

@@ -56,13 +56,16 @@ class ScreenTriangles {
   };
   using Line = std::array<glm::dvec2, 2>;
 
+  /// Sets the blocks of all meshes. `count_of`: the number of a mesh's elements.
+  template <typename Count>
+  void DivideIntoBlocks(std::span<const DrawnMesh> meshes, const Count& count_of);
   void ProjectPositions(std::span<const DrawnMesh> meshes, const PixelView& view);
   void MarkEdges(std::span<const DrawnMesh> meshes, const PixelView& view);
   void FindTriangles(std::span<const DrawnMesh> meshes, const PixelView& view);
 
   PixelMarks marks_;
   std::vector<ScreenTriangle> triangles_;
-  /// Of each vertex: x and y in pixels, times the depth; the depth in metres.
+  /// One a vertex: x and y in pixels, times the depth; the depth in metres.
   std::vector<glm::dvec3> projected_;
   std::vector<std::size_t> first_vertices_;  // One a mesh.
   std::vector<Block> blocks_;

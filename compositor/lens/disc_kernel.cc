@@ -16,7 +16,7 @@ constexpr int kFinePerPixel = 8, kCoarsePerPixel = 4;
 constexpr int kFineSteps = 64;  // Up to kFineUpTo_px.
 constexpr int kSteps =
     kFineSteps + kCoarsePerPixel * static_cast<int>(DiscKernels::kMaxCircle_px - kFineUpTo_px);
-constexpr int kParts = 10;        // Of a pixel: all of it, and by sides.
+constexpr int kParts = 10;        // The whole pixel, and parts by their sides.
 constexpr int kRowsOfPixel = 16;  // Over which a row of pixels is averaged.
 constexpr float kLeastRise = 1e-7F;
 
@@ -96,8 +96,8 @@ Weights CoveredAreas(const LensStop& stop, double radius) {
   return weights;
 }
 
-/// Length that two intervals of these widths have in common when their centres are `apart`, over
-/// the first one's width: the share of light from a part of a pixel that reaches another pixel.
+/// The share of the light of a part of a pixel that reaches a pixel whose centre is `apart` from
+/// its own, along one axis.
 double Common(double part, double apart) {
   return std::clamp((0.5 * (part + 1.0) - std::fabs(apart)) / part, 0.0, std::min(1.0, 1.0 / part));
 }

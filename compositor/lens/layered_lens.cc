@@ -1,7 +1,6 @@
 #include "compositor/lens/layered_lens.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -110,7 +109,7 @@ Composed ComposePixel(const BlockLayers& layers, int x, int y) {
     if (layers.At(layer, x, y)[3] > kNoCoverage) farthest_object = layer;
   }
   float before = 1.0F;   // What surfaces in front leave of the lens.
-  float covered = 0.0F;  // Of that, by the layers next to one another so far.
+  float covered = 0.0F;  // The share of it that neighbouring layers cover so far.
   int last = -1;
   for (const int layer : layers.layers()) {
     const float* const sums = layers.At(layer, x, y);

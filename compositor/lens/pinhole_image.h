@@ -25,8 +25,8 @@ struct DioptreRange {
   float min = 1e30F, max = -1e30F;
 };
 
-/// 1/z of a real surface that ends at a pixel, before an object that the pixel or the one to the
-/// left or above shows; 0: there is none.
+/// 1/z of a real surface that ends at a pixel before an object. 0: there is none. The object may be
+/// in the pixel, or in the one to the left or above.
 float OccluderEdge(const PinholeImage& image, int x, int y);
 
 /// Returns the range of all that virtual objects affect noticeably, and of what covers them.

@@ -24,7 +24,7 @@ class PixelSurfaces {
 
   struct Depth {
     float object_circle_px = 0.0F;  ///< SignedCircle_px() of the object.
-    float real_circle_px[2] = {};   ///< Of the nearest and of the farthest real surface.
+    float real_circle_px[2] = {};   ///< The nearest and the farthest real surface.
     std::int16_t object_layer = 0, real_layer[2] = {};  ///< LayerOf() those.
     bool has_object = false;  ///< Something of an object is drawn or hidden by real surfaces.
     bool has_change = false;  ///< The light of real surfaces changes.
@@ -65,19 +65,19 @@ class PixelSurfaces {
   /// How far circles of confusion reach into a rectangle from the pixels around it; 0: nothing is
   /// drawn there.
   int ReachInto(const PixelRect& rect) const;
-  /// Whether a real surface in this layer at a pixel stands before objects so near to it that it
-  /// covers them over a part of the lens.
+  /// Whether a real surface at a pixel covers objects over a part of the lens: one in this layer,
+  /// before objects nearby.
   bool IsOccluder(int layer, int x, int y) const {
     return layer + kLayersApart <= CellAt(x, y).farthest_near;
   }
 
  private:
-  /// Of a square of pixels.
+  /// A square of pixels.
   struct Cell {
     int farthest_object = -1;  ///< Layer; −1: there is none.
     int farthest_near = -1;    ///< The same over all cells that the circles of this one may meet.
-    int object_reach_px = 0;   ///< Of the objects in it.
-    int reach_px = 0;          ///< Of all that is drawn in it.
+    int object_reach_px = 0;   ///< The reach of objects in it.
+    int reach_px = 0;          ///< The reach of all that is drawn in it.
     bool is_sharp = false;     ///< It has an object, an occluder, or an edge of a shadow.
     bool is_drawn = false;     ///< Circles of a sharp one reach it.
   };
@@ -106,7 +106,7 @@ class PixelSurfaces {
 
   const PinholeImage& image_;
   std::vector<Depth> depths_;
-  int columns_, rows_;  // Of cells.
+  int columns_, rows_;  // Numbers of cells.
   std::vector<Cell> cells_;
 };
 

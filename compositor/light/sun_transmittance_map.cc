@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <tuple>
 
+#include "base/bilinear.h"
 #include "base/quantile.h"
 #include "base/units.h"
 #include "compositor/light/sampling.h"
@@ -71,18 +72,8 @@ std::vector<double> FillGaps(const Level& level) {
 
 double SunTransmittanceMap::At(Vec3 point) const {
   if (share.empty()) return 1.0;
-  const double x =
-      std::clamp((Dot(point, across_x) - first_x) / cell_m, 0.0, static_cast<double>(width - 1));
-  const double y =
-      std::clamp((Dot(point, across_y) - first_y) / cell_m, 0.0, static_cast<double>(height - 1));
-  const int left = static_cast<int>(x), top = static_cast<int>(y);
-  const auto cell = [&](int column, int row) {
-    return static_cast<double>(share[static_cast<std::size_t>(std::min(row, height - 1)) * width +
-                                     std::min(column, width - 1)]);
-  };
-  const double u = x - left, v = y - top;
-  return (1 - v) * ((1 - u) * cell(left, top) + u * cell(left + 1, top)) +
-         v * ((1 - u) * cell(left, top + 1) + u * cell(left + 1, top + 1));
+  return BilinearAt(share, width, height, (Dot(point, across_x) - first_x) / cell_m,
+                    (Dot(point, across_y) - first_y) / cell_m);
 }
 
 bool SunTransmittanceMap::HoldsFor(Vec3 direction) const {

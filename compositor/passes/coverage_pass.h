@@ -52,7 +52,7 @@ class CoveragePass {
   gl::GlTexture marks_, piece_texels_;
   gl::GlProgram object_program_, real_program_;
   gl::GlVertexArray no_attributes_;
-  std::int64_t measured_px_ = 0, drawn_px_ = 0;  // Of all images.
+  std::int64_t measured_px_ = 0, drawn_px_ = 0;  // Over all images.
 };
 
 }  // namespace pleinair::compositor

@@ -28,9 +28,9 @@ constexpr double kModelNoise = 0.10;
 constexpr double kMinStep = 0.25;
 // Minimum step: a quarter of the predicted one, and 2.5 standard deviations of the noise.
 constexpr double kStepShare = 0.25, kStepSigmas = 2.5;
-// Weighted share of edges with a step: minimum for a sun, and maximum for a hidden sun.
-constexpr double kSunShare = 0.30, kNoSunShare = 0.12;
-constexpr int kMinEdgesForSun = 3, kMinEdgesForNoSun = 6;
+// Maximum weighted share of edges with a step for a hidden sun.
+constexpr double kNoSunShare = 0.12;
+constexpr int kMinEdgesForSun = 3;
 constexpr double kAgreement = 0.35;
 // Maximum logarithmic deviation of an edge's color step from that of the others.
 constexpr double kMaxColorOffset = 0.12;

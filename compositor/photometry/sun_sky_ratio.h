@@ -41,6 +41,11 @@ struct SunSkyRatio {
   LinearRgb sky_radiance_scale{1.0, 1.0, 1.0};
   double log_uncertainty = 0.0;  ///< Standard deviation of the logarithm of sky_radiance_scale.
 };
+/// Least weighted share of edges with contrast under a sun, and least number of edges by which one
+/// can be denied.
+inline constexpr double kSunShare = 0.30;
+inline constexpr int kMinEdgesForNoSun = 6;
+
 SunSkyRatio EstimateSunSkyRatio(const std::vector<ShadowEdge>& edges);
 
 }  // namespace pleinair::compositor

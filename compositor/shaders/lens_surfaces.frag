@@ -1,7 +1,7 @@
 #version 450 core
-// Reciprocal distances of what a pixel shows: the nearest object, the nearest real surface, and the
-// farthest one, with the part of the real surfaces that the nearest has. 0: there is none, or it is
-// not known.
+// Reciprocal distances of what a pixel shows: the nearest object, the nearest and the farthest real
+// surface. 0: there is none, or it is not known. The nearest real surface has a part of all real
+// ones.
 
 #include "compositor/shaders/lens_depth.glsl"
 #include "compositor/shaders/visibility_buffer_layout.glsl"

@@ -9,7 +9,7 @@ const float kWeightOfPixel = 64.0;
 
 float WeightOf(uint weights) { return float(weights & 255u); }
 
-// Of pieces that the renderer's samples show.
+// The weights of pieces that the renderer's samples show.
 uint WeightsOfSamples(uvec4 seen, int samples) {
   uvec4 counts = uvec4(bitCount(seen >> kSamplesShift)) * uint(64 / samples);
   return counts.x | counts.y << 8 | counts.z << 16 | counts.w << 24;

@@ -1,7 +1,8 @@
 #ifndef COMPOSITOR_TEXTURE_DONOR_GLSL
 #define COMPOSITOR_TEXTURE_DONOR_GLSL
 // Pixels whose samples have the textures of a piece of surface. A bar between all samples of its
-// pixel has none there. 0: the pixel itself; then the others of 5 × 5 pixels, from near to far.
+// pixel has none there. Number 0 is the pixel itself. The others of 5 × 5 pixels follow, from near
+// to far.
 
 const int kDonors = 25;
 

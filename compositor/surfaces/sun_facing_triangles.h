@@ -28,7 +28,7 @@ class SunFacingTriangles {
   bool IncludeAll();
   /// The triangles that may face the sun come first.
   std::span<const std::uint32_t> indices() const { return indices_; }
-  /// Of the vertices, unit.
+  /// Normals of the vertices, unit.
   std::span<const glm::vec3> normals() const { return normals_; }
   int facing_end() const { return ends_[0]; }
   /// One past the last index of the triangles that may face the sun, and of all.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "base/bilinear.h"
 #include "base/parallel_for.h"
 #include "sky/clouds/sun_disc_rays.h"
 
@@ -68,7 +69,7 @@ class DepthGrid {
   }
 
  private:
-  double radius_m_ = 0.0;  // Of the disc, at the layer's distance.
+  double radius_m_ = 0.0;  // The sun's disc at the layer's distance.
   double cell_m_ = 0.0, first_x_m_ = 0.0, first_y_m_ = 0.0;
   int width_ = 0;
   std::vector<float> depth_;
@@ -105,16 +106,8 @@ double CloudShadowMap::Mean() const {
 
 double CloudShadowMap::At(Vec3 point_m) const {
   if (share.empty()) return 1.0;
-  const double x = std::clamp((Dot(point_m, across_x) - first_x_m) / texel_m, 0.0, width - 1.0);
-  const double y = std::clamp((Dot(point_m, across_y) - first_y_m) / texel_m, 0.0, height - 1.0);
-  const int left = static_cast<int>(x), low = static_cast<int>(y);
-  const auto texel = [&](int column, int row) {
-    return static_cast<double>(share[static_cast<std::size_t>(std::min(row, height - 1)) * width +
-                                     std::min(column, width - 1)]);
-  };
-  const double u = x - left, v = y - low;
-  return (1 - v) * ((1 - u) * texel(left, low) + u * texel(left + 1, low)) +
-         v * ((1 - u) * texel(left, low + 1) + u * texel(left + 1, low + 1));
+  return BilinearAt(share, width, height, (Dot(point_m, across_x) - first_x_m) / texel_m,
+                    (Dot(point_m, across_y) - first_y_m) / texel_m);
 }
 
 CloudShadowMap MakeCloudShadowMap(const CloudFields& fields, const GroundBox& box,

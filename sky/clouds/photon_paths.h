@@ -32,8 +32,8 @@ struct PhotonFluxes {
 /// on the number of threads. `to_sun`: unit vector, z > 0.
 PhotonFluxes TracePhotons(const CloudVolume& cloud, Vec3 to_sun, int photons, std::uint64_t seed);
 
-/// The step cloud of the I3RC, case 1: 500 m wide strips along y, one half of the optical depth 2,
-/// the other of 18, 250 m thick, g = 0.85, periodic.
+/// The step cloud of the I3RC, case 1. Strips along y repeat every 500 m. One half of each has the
+/// optical depth 2, the other 18. It is 250 m thick; g = 0.85.
 struct StepCloud {
   static constexpr double kPeriod_m = 500.0, kThickness_m = 250.0, kThin = 2.0, kThick = 18.0;
 

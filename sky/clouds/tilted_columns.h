@@ -16,9 +16,9 @@ struct LayerShares {
 };
 
 /// Shares of a layer by columns that are tilted towards the sun (Várnai & Davies 1999, "tilted
-/// independent columns"): R of the table at the optical depth of the ray times μ₀. slant_depth(i)
-/// and column_depth(i) give the depth of the i-th of `count` rays to the sun and of the vertical
-/// column at its foot.
+/// independent columns"): R of the table at the optical depth of the ray times μ₀. The function
+/// slant_depth(i) gives the depth of the i-th of `count` rays to the sun, column_depth(i) that of
+/// the vertical column at its foot.
 template <typename Slant, typename Column>
 LayerShares SharesOfTiltedColumns(const SlabTable& table, double sun_cosine, int count,
                                   const Slant& slant_depth, const Column& column_depth) {

@@ -124,14 +124,21 @@ PlacedModel RedWire() {
 TEST(ComposerAntialiasing, ThinTexturedThingsHaveNoGapsAndTheirColor) {
   const RgbImage image =
       Compose({RedWire()}, EvenPicture(0), kCamera, kSunLux, Using(AntialiasingMethod::kSubpixel));
-  for (int x = 100; x < 220; ++x) {
+  // The wire is 0.3 pixels wide. Its columns have that light in the mean, each nearly so.
+  constexpr int kFirst = 100, kEnd = 220;
+  double sum = 0.0, squares = 0.0;
+  for (int x = kFirst; x < kEnd; ++x) {
     double light = 0.0;
     for (int y = 0; y < kCamera.height; ++y) {
       light += LinearFromSrgb8()[image(x, y, 0)];
       EXPECT_EQ(image(x, y, 1), 0) << x << ' ' << y;
     }
-    EXPECT_NEAR(light, 0.3, 0.04) << x;
+    EXPECT_GT(light, 0.2) << x;
+    sum += light;
+    squares += (light - 0.3) * (light - 0.3);
   }
+  EXPECT_NEAR(sum / (kEnd - kFirst), 0.3, 0.006);
+  EXPECT_LT(std::sqrt(squares / (kEnd - kFirst)), 0.03);
 }
 
 TEST(ComposerAntialiasing, SubpixelCoversObjectsByTheEdgesOfRealThings) {

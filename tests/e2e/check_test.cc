@@ -13,6 +13,7 @@ namespace pleinair::e2e {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// Verdict of each subject.
 std::map<std::string, std::string> Verdicts(const std::string& lines) {
@@ -55,6 +56,33 @@ TEST(Check, SaysWhatIsWrongAndExitsWithOne) {
   const RunResult unseen = RunPleinair({"check", folder / "site", "--json"});
   EXPECT_EQ(unseen.exit_code, 1);
   EXPECT_EQ(Verdicts(unseen.out)["marker"], "bad");
+}
+
+TEST(Check, ContradictsADescribedSkyThatTheShadowsDeny) {
+  const TemporaryFolder folder;
+  MakeShortRecording(folder / "site", 3, true);
+  Edit(folder, "cloudiness = \"clear\"", "cloudiness = \"overcast\"");
+  const RunResult run = RunPleinair({"check", folder / "site"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("sky: doubtful: the phantoms' shadows are visible"));
+}
+
+TEST(Check, SaysWhyNoShadowGivesTheHeading) {
+  const TemporaryFolder folder;
+  MakeShortRecording(folder / "site", 3, true);
+  std::string scene = ReadFile(folder / "site/scene.toml");
+  const std::size_t phantom = scene.find("[[phantom]]");
+  ASSERT_NE(phantom, std::string::npos);
+  const std::size_t next = scene.find("[[", phantom + 2);
+  scene.erase(phantom, next == std::string::npos ? next : next - phantom);
+  WriteFile(folder / "site/scene.toml", scene);
+  EXPECT_THAT(RunPleinair({"check", folder / "site"}).out,
+              HasSubstr("heading: not checked: nothing is described that casts a shadow"));
+  WriteFile(folder / "site/scene.toml",
+            scene + "\n[ground]\n[[box]]\nfrom_m = [0.9, 0.9, 0.0]\nto_m = [0.95, 0.95, 0.03]\n");
+  const std::string low = RunPleinair({"check", folder / "site"}).out;
+  EXPECT_THAT(low, HasSubstr("heading: not checked: "));
+  EXPECT_THAT(low, Not(HasSubstr("nothing is described")));
 }
 
 TEST(Check, WhatItCannotReadIsRefused) {

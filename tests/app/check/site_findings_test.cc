@@ -21,9 +21,8 @@ SiteFacts GoodSite() {
   facts.light.emplace();
   facts.light->heading_source = compositor::MeasuredLight::Source::kMeasured;
   facts.light->sun_source = compositor::MeasuredLight::Source::kMeasured;
-  facts.light->sun_to_sky = 5.0;
   facts.light->sun_to_sky_stated = 6.0;
-  facts.shadows.casters = 2;
+  facts.shadow_casters = 2;
   for (int i = 0; i < 10; ++i) {
     FrameFacts frame;
     frame.index = i;
@@ -201,7 +200,7 @@ TEST(JudgeSite, SaysWhyNoShadowGaveTheHeading) {
     return FindingOn("heading", [=](SiteFacts* site) {
       site->light->heading_source = Source::kDescription;
       site->light->sun_source = Source::kDescription;
-      site->shadows.casters = casters;
+      site->shadow_casters = casters;
       site->light->evidence.edges = edges;
       site->light->evidence.edges_with_contrast = with_contrast;
     });

@@ -29,8 +29,7 @@ CloudFields FieldsOf(const std::vector<std::string>& layers) {
   return MakeFields(parsed);
 }
 
-/// Largest and mean difference from SunTransmittance() on ground and roofs. Edges change by up to a
-/// half within a texel under a high sun.
+/// Largest and mean difference from SunTransmittance() on ground and roofs.
 struct Difference {
   double largest = 0.0, mean = 0.0;
 };
@@ -57,7 +56,9 @@ TEST(CloudShadowMap, AgreesWithTheTransmittanceOfPoints) {
     for (const double seconds : {0.0, 35.0, 80.0}) {
       for (const CloudFields& fields : {cumulus, two}) {
         const Difference found = FromPoints(fields, SunAt(200, elevation), seconds);
-        EXPECT_LT(found.mean, 0.008) << elevation << " " << seconds;
+        // The disc's edge is 9 m wide at the clouds under a high sun, 14 m at 40°. Between texels
+        // of 5 m its curvature leaves that much.
+        EXPECT_LT(found.mean, elevation > 45.0 ? 0.008 : 0.004) << elevation << " " << seconds;
         EXPECT_LT(found.largest, 0.08) << elevation << " " << seconds;
       }
     }
