@@ -107,7 +107,7 @@ Result<SiteFacts> LookAtSite(const CheckRequest& request) {
   PLEINAIR_ASSIGN_OR_RETURN(const auto pipeline, session::Pipeline::Create(camera, scene, options));
   SiteFacts facts;
   facts.has_objects = !scene.objects.empty();
-  facts.shadow_casters = static_cast<int>(
+  facts.shadows.casters = static_cast<int>(
       std::ranges::count_if(scene.phantoms, [](const scene::ModelReference& phantom) {
         return !phantom.surface || phantom.surface->kind != scene::SurfaceKind::kGround;
       }));
@@ -155,6 +155,10 @@ Result<SiteFacts> LookAtSite(const CheckRequest& request) {
   const sky::SunPosition sun = scene::SunOver(scene.place_time, scene.place_time.start);
   facts.light->sun_to_sky_stated =
       compositor::SunToSky(*compositor::DescribedSky(scene)->ForSun(sun.ToSun(), sun.distance_au));
+  const auto& elsewhere = facts.light->evidence.sun_elsewhere;
+  if (elsewhere && elsewhere->later_s) {
+    facts.shadows.time_that_fits = scene.place_time.start.PlusSeconds(*elsewhere->later_s);
+  }
   return facts;
 }
 

@@ -1,9 +1,12 @@
 #include "app/check/shadow_findings.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "app/replay/light_contradiction.h"
 #include "base/units.h"
@@ -22,11 +25,35 @@ constexpr double kNoticeableShade = 0.05;
 
 constexpr const char* kCompare = "compare the object's shadow in first.png with a real one";
 
+/// "2025-09-14T11:05Z", the nearest minute.
+std::string MinuteOf(UtcTime time) {
+  constexpr double kHalfMinute_s = 30.0;
+  constexpr std::size_t kMinutes = 16;
+  return time.PlusSeconds(kHalfMinute_s).ToString().substr(0, kMinutes) + "Z";
+}
+
+std::string RemedyForSunElsewhere(const SiteFacts& facts) {
+  const compositor::SunElsewhere& elsewhere = *facts.light->evidence.sun_elsewhere;
+  std::vector<std::string> fits;
+  if (facts.shadows.time_that_fits) {
+    fits.push_back(
+        fmt::format("the time {} at this heading", MinuteOf(*facts.shadows.time_that_fits)));
+  }
+  if (elsewhere.heading_offset) {
+    const double offset_deg = ToDegrees(*elsewhere.heading_offset);
+    fits.push_back(fmt::format("a heading {:.0f} degrees {} at this time", std::abs(offset_deg),
+                               offset_deg > 0.0 ? "larger" : "smaller"));
+  }
+  if (!elsewhere.time_fits_better) std::reverse(fits.begin(), fits.end());
+  return fmt::format("time or heading is wrong: check the offset from UTC and the compass; {} fits",
+                     fmt::join(fits, " fits best, "));
+}
+
 /// A heading that no shadow gave.
 SiteFinding UnmeasuredHeading(const SiteFacts& facts) {
   const compositor::MeasuredLight& light = *facts.light;
   const compositor::LightEvidence& evidence = light.evidence;
-  if (facts.shadow_casters == 0) {
+  if (facts.shadows.casters == 0) {
     return {"heading", Verdict::kUnknown, "nothing is described that casts a shadow",
             "describe what does, [[box]] or [[wall]] (docs/guide/reference/scenes.md), or " +
                 std::string(kCompare)};
@@ -74,6 +101,9 @@ SiteFinding HeadingFinding(const SiteFacts& facts) {
   const compositor::MeasuredLight& light = *facts.light;
   const LightContradiction contradiction = ContradictionOf(light);
   switch (contradiction) {
+    case LightContradiction::kSunElsewhere:
+      return {"heading", Verdict::kDoubtful, SeenText(contradiction, light),
+              RemedyForSunElsewhere(facts)};
     case LightContradiction::kShadowsElsewhere:
       return {"heading", Verdict::kDoubtful, SeenText(contradiction, light),
               "check time and its offset from UTC, heading, and the place of boxes and walls"};
@@ -116,6 +146,7 @@ SiteFinding SkyFinding(const SiteFacts& facts) {
               "replay assumes an overcast sky; write cloudiness = \"overcast\", or check time and "
               "heading"};
     case LightContradiction::kShadowsElsewhere:
+    case LightContradiction::kSunElsewhere:
       return {"sky", Verdict::kUnknown, "shadows lie elsewhere than the scene would cast them",
               "correct time and heading first"};
     case LightContradiction::kNone:

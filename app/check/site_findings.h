@@ -7,6 +7,7 @@
 
 #include "app/check/frame_facts.h"
 #include "base/error.h"
+#include "base/utc_time.h"
 #include "compositor/photometry/measured_light.h"
 #include "session/trajectory/follow_trajectory.h"
 
@@ -32,6 +33,13 @@ struct TrajectoryFit {
   Result<session::TrajectorySummary> summary{};  ///< Error: it does not fit, and why.
 };
 
+/// What is known of a site's shadows beside the light estimate.
+struct ShadowFacts {
+  int casters = 0;  ///< Described surfaces that can cast a shadow: all but level ground.
+  /// Time at which the sun stands where the shadows fit, if they fit one elsewhere.
+  std::optional<UtcTime> time_that_fits{};
+};
+
 /// Measurements of a site: the input of JudgeSite().
 struct SiteFacts {
   std::vector<FrameFacts> frames;  ///< Those that show the marker.
@@ -45,7 +53,7 @@ struct SiteFacts {
   std::vector<std::string> placement;  ///< PlacementWarnings(), one sentence each.
   std::int64_t with_pose = 0;  ///< Frames with a pose, by the marker, anchors or a trajectory.
   std::optional<TrajectoryFit> trajectory{};  ///< Nothing: the scene has none.
-  int shadow_casters = 0;  ///< Described surfaces that can cast a shadow: all but level ground.
+  ShadowFacts shadows{};
 };
 
 /// Judges: frames, if some are lost, marker, trajectory, if there is one, size, view, blur,

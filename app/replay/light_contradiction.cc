@@ -12,7 +12,10 @@ constexpr double kNoticeableSun = 0.1;
 
 LightContradiction ContradictionOf(const compositor::MeasuredLight& light) {
   using Source = compositor::MeasuredLight::Source;
-  if (light.sun_doubtful) return LightContradiction::kShadowsElsewhere;
+  if (light.sun_doubtful) {
+    return light.evidence.sun_elsewhere ? LightContradiction::kSunElsewhere
+                                        : LightContradiction::kShadowsElsewhere;
+  }
   const bool has_described_sun = light.sun_to_sky_stated > kNoticeableSun;
   if (light.sun_source == Source::kMarker && !has_described_sun) {
     return LightContradiction::kMarkerDivided;
@@ -45,6 +48,8 @@ std::string SeenText(LightContradiction contradiction, const compositor::Measure
       return "a shadow edge crosses the marker";
     case LightContradiction::kShadowsElsewhere:
       return missing + ", but shadows lie elsewhere";
+    case LightContradiction::kSunElsewhere:
+      return "the shadows fit a sun elsewhere than the scene's";
   }
   return {};
 }

@@ -14,6 +14,7 @@ enum class LightContradiction {
   kShadowsVisible,    ///< Phantoms cast shadows below a sky that is described without a sun.
   kMarkerDivided,     ///< The same, by a shadow edge on the marker.
   kShadowsElsewhere,  ///< Shadows lie elsewhere than the described sun would cast them.
+  kSunElsewhere       ///< The same, and they fit a sun elsewhere.
 };
 
 LightContradiction ContradictionOf(const compositor::MeasuredLight& light);

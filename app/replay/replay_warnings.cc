@@ -125,6 +125,10 @@ std::string ContradictionSentence(const compositor::MeasuredLight& light) {
       return sentence +
              ": it is uncertain whether the sun shone, and the scene's sky is kept. Check place, "
              "time and heading, or give --sun-to-sky.";
+    case LightContradiction::kSunElsewhere:
+      return sentence +
+             ": time or heading is wrong, or both, and the scene's sky is kept. Check them; "
+             "'pleinair check' names values that fit.";
   }
   return sentence;
 }

@@ -319,8 +319,12 @@ class ObjParser {
     const std::filesystem::path path = file_.parent_path() / name;
     auto text = companions_.read_text(path);
     if (!text) {
-      return Fail("material library " + text.error().Message(),
-                  "put the file beside the model or remove the mtllib line");
+      // The reader's own remedy is for the model.
+      Error unread = text.error();
+      unread.remedy.clear();
+      return Fail("material library " + unread.Message(),
+                  "put it beside the model, remove the mtllib line, or trust the model with "
+                  "--allow-outside");
     }
     const std::size_t first = model_.materials.size();
     PLEINAIR_RETURN_IF_ERROR(ParseMtl(*text, path, companions_, &model_));

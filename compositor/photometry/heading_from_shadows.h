@@ -16,6 +16,8 @@ struct HeadingEstimate {
   Radians uncertainty;    ///< One standard deviation, by a jackknife over eight groups of cells.
   double contrast = 0.0;  ///< Mean step of the logarithm of light across the shadow boundaries.
   int cells = 0;          ///< Cells that contain a shadow boundary at this heading.
+  /// Share of the brightness' variance, in cells that some heading divides, that it explains.
+  double explained_share = 0.0;
 };
 
 /// Estimates the heading from the shadows that phantoms cast on phantoms. The search rotates the

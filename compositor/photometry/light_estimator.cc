@@ -14,6 +14,7 @@
 #include "compositor/photometry/overcast_test.h"
 #include "compositor/photometry/shade/ratio_from_shade.h"
 #include "compositor/photometry/shade/unmodelled_shadows.h"
+#include "compositor/photometry/sun_elsewhere.h"
 #include "compositor/photometry/sun_sky_ratio.h"
 #include "scene/marker_heading.h"
 #include "scene/sun_over_place.h"
@@ -163,8 +164,18 @@ SunSkyRatio LightEstimator::EstimateHeadingAndRatio(LightFilter* light_filter,
   LightFilter with_reading = *light_filter;
   if (!overrides_.heading_deg) {
     const Vec3 up = stated * Vec3{0.0, 0.0, 1.0};
-    if (const auto heading =
-            EstimateHeading(*phantoms_, samples_, up, stated * day_->ToSun().xyz)) {
+    const Vec3 to_sun = stated * day_->ToSun().xyz;
+    const auto later = [&](double seconds) {
+      return stated * scene::SunOver(scene_.place_time, time_.PlusSeconds(seconds)).ToSun().xyz;
+    };
+    const auto heading = EstimateHeading(*phantoms_, samples_, up, to_sun);
+    // Beside a sun elsewhere, a weak maximum near the described heading is a coincidence.
+    const auto elsewhere = heading && IsConvincing(*heading)
+                               ? std::nullopt
+                               : FindSunElsewhere(*phantoms_, samples_, {up, to_sun, later});
+    if (elsewhere) {
+      found->measured.evidence.sun_elsewhere = elsewhere;
+    } else if (heading) {
       with_reading.AddHeading(WeightedHeading(*heading), time_);
     }
   }
@@ -173,7 +184,7 @@ SunSkyRatio LightEstimator::EstimateHeadingAndRatio(LightFilter* light_filter,
   marker.heading = found->heading;
   const SunSkyRatio estimate = EstimateSunSkyRatio(
       FindShadowEdges(*phantoms_, samples_, *day_, scene::MarkerFromWorld(marker)));
-  if (estimate.sun == SunSkyRatio::Sun::kShines) {
+  if (estimate.sun == SunSkyRatio::Sun::kShines && !found->measured.evidence.sun_elsewhere) {
     *light_filter = with_reading;
   } else {
     // Without a sun the heading was not estimated from shadows.
@@ -242,6 +253,11 @@ LightEstimate LightEstimator::Estimate(LightFilter* light_filter) const {
   const auto contrast_under_cloud = [&] {
     return plane_contrast(*overcast->ForSun(sun_.ToSun(), sun_.distance_au));
   };
+  // No shadow tells of a sun that stands elsewhere.
+  if (light.evidence.sun_elsewhere && !overridden) {
+    light.sun_doubtful = true;
+    return settle_as_before();
+  }
   // Soft shade is also tested as wide at the shallower depth that haze gives it.
   const bool edges_hidden =
       may_shine && unmodelled.HidesEdges() &&

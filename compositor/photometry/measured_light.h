@@ -6,6 +6,14 @@
 
 namespace pleinair::compositor {
 
+/// Corrections that each put the sun where the shadows fit. The shadows do not tell which of the
+/// two is wrong. At least one is set.
+struct SunElsewhere {
+  std::optional<Radians> heading_offset;  ///< To be added to the heading, at the described time.
+  std::optional<double> later_s;          ///< To be added to the time, at the described heading.
+  bool time_fits_better = false;          ///< The time explains more than the heading.
+};
+
 /// Evidence of sun and sky in the frames.
 struct LightEvidence {
   int frames = 0;          ///< Frames used for the estimate.
@@ -13,6 +21,8 @@ struct LightEvidence {
   int edges_agreeing = 0;  ///< Edges that agree with the sun-to-sky ratio.
   /// SunSkyRatio::share_with_contrast.
   double edges_with_contrast = 0.0;
+  /// The shadows fit a sun elsewhere far better; sun_doubtful is then true.
+  std::optional<SunElsewhere> sun_elsewhere;
   int shade_places = 0;  ///< Places where the depth of tree shade was measured; for Source::kShade.
 };
 
@@ -31,8 +41,8 @@ struct MeasuredLight {
   Radians heading_offset;                ///< Added to the described heading.
   std::optional<Radians> heading_error;  ///< One standard deviation. Empty where not measured.
   LightEvidence evidence;
-  /// True if no shadow lies where phantoms would cast one, yet there are shadows. Sun, overcast and
-  /// shaded places are then not estimated.
+  /// True if no shadow lies where phantoms would cast one, yet there are shadows, or if the shadows
+  /// fit a sun elsewhere. Sun, overcast and shaded places are then not estimated.
   bool sun_doubtful = false;
   double shaded = 0.0;  ///< Shaded share of the area that the phantoms leave sunlit.
   /// Direct sunlight over the brightest light on the marker under leaves.

@@ -67,6 +67,17 @@ TEST(Check, ContradictsADescribedSkyThatTheShadowsDeny) {
   EXPECT_THAT(run.out, HasSubstr("sky: doubtful: the phantoms' shadows are visible"));
 }
 
+TEST(Check, NamesTheTimeThatFitsWhereItIsWrongByAnHour) {
+  for (const std::string wrong : {"T12:05:00Z", "T10:05:00Z", "T13:05:00Z"}) {
+    const TemporaryFolder folder;
+    MakeShortRecording(folder / "site", 3, true);
+    Edit(folder, "T11:05:00Z", wrong);
+    const std::string out = RunPleinair({"check", folder / "site"}).out;
+    EXPECT_THAT(out, HasSubstr("heading: doubtful: the shadows fit a sun elsewhere")) << wrong;
+    EXPECT_THAT(out, HasSubstr("the time 2025-09-14T11:05Z at this heading fits")) << wrong;
+  }
+}
+
 TEST(Check, SaysWhyNoShadowGivesTheHeading) {
   const TemporaryFolder folder;
   MakeShortRecording(folder / "site", 3, true);

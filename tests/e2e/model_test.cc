@@ -78,7 +78,8 @@ TEST(ModelCommand, RefusesBadModelsInOneLine) {
       "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"children\":"
       "[0]}]}",
       "a.gltf", "contains itself");
-  refuse("mtllib ../none.mtl\n", "a.obj", "lies outside the folder of the model that names it");
+  refuse("mtllib ../none.mtl\n", "a.obj",
+         "lies outside the folder of the model that names it; put it beside the model, remove");
   refuse("ply\nformat ascii 1.0\n", "a.ply", "is a PLY model, which is not read");
   ExpectRefused(RunPleinair({"model", "a.obj", "b.obj", "-o", "one.png"}), "name a folder");
   ExpectRefused(RunPleinair({"model", "a.obj", "-o", "one.jpg"}), "PNG");

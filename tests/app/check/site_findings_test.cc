@@ -22,7 +22,7 @@ SiteFacts GoodSite() {
   facts.light->heading_source = compositor::MeasuredLight::Source::kMeasured;
   facts.light->sun_source = compositor::MeasuredLight::Source::kMeasured;
   facts.light->sun_to_sky_stated = 6.0;
-  facts.shadow_casters = 2;
+  facts.shadows.casters = 2;
   for (int i = 0; i < 10; ++i) {
     FrameFacts frame;
     frame.index = i;
@@ -200,7 +200,7 @@ TEST(JudgeSite, SaysWhyNoShadowGaveTheHeading) {
     return FindingOn("heading", [=](SiteFacts* site) {
       site->light->heading_source = Source::kDescription;
       site->light->sun_source = Source::kDescription;
-      site->shadow_casters = casters;
+      site->shadows.casters = casters;
       site->light->evidence.edges = edges;
       site->light->evidence.edges_with_contrast = with_contrast;
     });
@@ -217,6 +217,25 @@ TEST(JudgeSite, SaysWhyNoShadowGaveTheHeading) {
   }
   EXPECT_EQ(missing.verdict, SiteVerdict::kDoubtful);
   EXPECT_THAT(missing.remedy, HasSubstr("check time, heading"));
+}
+
+TEST(JudgeSite, NamesTimeAndHeadingThatFitASunElsewhere) {
+  const auto finding = [](compositor::SunElsewhere elsewhere) {
+    return FindingOn("heading", [&](SiteFacts* site) {
+      site->light->sun_doubtful = true;
+      site->light->evidence.sun_elsewhere = elsewhere;
+      if (elsewhere.later_s) {
+        site->shadows.time_that_fits = *UtcTime::Parse("2025-09-14T11:05:00Z");
+      }
+    });
+  };
+  const SiteFinding time = finding({FromDegrees(20.0), -3600.0, true});
+  EXPECT_EQ(time.verdict, SiteVerdict::kDoubtful);
+  EXPECT_THAT(time.text, HasSubstr("fit a sun elsewhere"));
+  EXPECT_THAT(time.remedy, HasSubstr("the time 2025-09-14T11:05Z at this heading fits best, a "
+                                     "heading 20 degrees larger at this time fits"));
+  const SiteFinding heading = finding({FromDegrees(-90.0), std::nullopt, false});
+  EXPECT_THAT(heading.remedy, HasSubstr("; a heading 90 degrees smaller at this time fits"));
 }
 
 TEST(JudgeSite, ContradictsAWrongSky) {

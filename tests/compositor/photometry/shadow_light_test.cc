@@ -9,6 +9,7 @@
 #include "compositor/photometry/heading_from_shadows.h"
 #include "compositor/photometry/marker/marker_shadow_edge.h"
 #include "compositor/photometry/overcast_test.h"
+#include "compositor/photometry/sun_elsewhere.h"
 #include "compositor/photometry/sun_sky_ratio.h"
 #include "tests/compositor/gentle_response.h"
 #include "tests/compositor/photometry/shadow_light_yard.h"
@@ -143,9 +144,50 @@ TEST_F(ShadowLight, FindsHowFarTheHeadingIsOff) {
   }
 }
 
+/// The sun's path of a day turns it by 15 degrees an hour about an axis tilted from the vertical.
+StatedSun StatedAt(Vec3 to_sun) {
+  return {kUp, to_sun, [to_sun](double seconds) {
+            const Vec3 pole = Normalized({0.0, 0.64, 0.77});
+            return Turned(to_sun, pole, FromDegrees(-15.0 * seconds / 3600.0));
+          }};
+}
+
+TEST_F(ShadowLight, FindsTheHeadingThatPutsTheSunWhereShadowsFit) {
+  const SurfaceSamples samples = Look({});
+  for (const double error_deg : {-150.0, -40.0, -20.0, -10.5, 11.0, 20.0, 90.0, 180.0}) {
+    const Vec3 stated = Turned(yard_->model().ToSun().xyz, kUp, FromDegrees(error_deg));
+    const auto heading = EstimateHeading(yard_->phantoms(), samples, kUp, stated);
+    EXPECT_FALSE(heading && IsConvincing(*heading)) << error_deg;
+    const auto found = FindSunElsewhere(yard_->phantoms(), samples, StatedAt(stated));
+    ASSERT_TRUE(found && found->heading_offset) << error_deg;
+    EXPECT_NEAR(std::remainder(ToDegrees(*found->heading_offset) + error_deg, 360.0), 0.0, 0.5)
+        << error_deg;
+  }
+}
+
+TEST_F(ShadowLight, FindsTheTimeThatPutsTheSunWhereShadowsFit) {
+  const SurfaceSamples samples = Look({});
+  for (const double error_s : {-7200.0, -3600.0, 3600.0, 5400.0}) {
+    const Vec3 stated = StatedAt(yard_->model().ToSun().xyz).to_sun_after(error_s);
+    const auto found = FindSunElsewhere(yard_->phantoms(), samples, StatedAt(stated));
+    ASSERT_TRUE(found && found->later_s) << error_s;
+    EXPECT_NEAR(*found->later_s + error_s, 0.0, 180.0) << error_s;
+    EXPECT_TRUE(found->time_fits_better) << error_s;
+  }
+}
+
+TEST_F(ShadowLight, FindsNoSunElsewhereWhereItStandsRight) {
+  const SurfaceSamples samples = Look({});
+  for (const double error_deg : {-9.0, 0.0, 9.0}) {
+    const Vec3 stated = Turned(yard_->model().ToSun().xyz, kUp, FromDegrees(error_deg));
+    EXPECT_FALSE(FindSunElsewhere(yard_->phantoms(), samples, StatedAt(stated))) << error_deg;
+  }
+}
+
 TEST_F(ShadowLight, BelievesTheStatedHeadingUnderAnOvercastSky) {
   const SurfaceSamples samples = Look({.sky_radiance_scale = {3, 3, 3}, .sun_scale = 0.0});
   EXPECT_FALSE(EstimateHeading(yard_->phantoms(), samples, kUp, yard_->model().ToSun().xyz));
+  EXPECT_FALSE(FindSunElsewhere(yard_->phantoms(), samples, StatedAt(yard_->model().ToSun().xyz)));
 }
 
 TEST_F(ShadowLight, MakesPlanesOfOneMaterialDifferWhereverShadowsFall) {
