@@ -71,12 +71,12 @@ SiteFinding UnmeasuredHeading(const SiteFacts& facts) {
                         evidence.edges, compositor::kMinEdgesForNoSun),
             "film more of their shadows, describe something taller, or " + std::string(kCompare)};
   }
-  const bool is_sunny = light.sun_source == Source::kMeasured && light.sun_shines;
   if (light.sun_source == Source::kShade || light.shaded > kNoticeableShade) {
     return {"heading", Verdict::kUnknown, "shade of what is not described hides the shadows' edges",
             "describe what casts it, or " + std::string(kCompare)};
   }
-  if (!is_sunny && evidence.edges_with_contrast < compositor::kSunShare) {
+  if (light.sun_source != Source::kMeasured &&
+      evidence.edges_with_contrast < compositor::kSunShare) {
     return {"heading", Verdict::kDoubtful,
             fmt::format("{} places of shadow edges are expected in view, and few of them show one",
                         evidence.edges),
@@ -115,6 +115,9 @@ SiteFinding HeadingFinding(const SiteFacts& facts) {
     case LightContradiction::kShadowsVisible:
     case LightContradiction::kMarkerDivided:
       break;
+  }
+  if (light.sun_source == Source::kMeasured && !light.sun_shines) {
+    return {"heading", Verdict::kUnknown, "without sunlight no shadow shows it", ""};
   }
   if (light.heading_source != Source::kMeasured) return UnmeasuredHeading(facts);
   const double offset_deg = ToDegrees(light.heading_offset);

@@ -241,6 +241,7 @@ LightEstimate LightEstimator::Estimate(LightFilter* light_filter) const {
   const auto overcast = OvercastSky();
   const auto settle_overcast = [&] {
     light.sun_source = MeasuredLight::Source::kMeasured;
+    light.sun_shines = false;
     found.skies.source = overcast;
     light_filter->AddClouds();
     light_filter->Keep(light, found.skies);

@@ -33,7 +33,7 @@ struct MeasuredLight {
   enum class Source { kDescription, kMeasured, kShade, kMarker, kOverride };
   Source sun_source = Source::kDescription;
   Source heading_source = Source::kDescription;
-  bool sun_shines = true;
+  bool sun_shines = true;          ///< False also where the frames show an overcast sky.
   double sun_to_sky = 0.0;         ///< Sun's illuminance of level ground over the sky's.
   double sun_to_sky_stated = 0.0;  ///< The same ratio by the scene description.
   /// Relative, one standard deviation. Empty where no ratio was measured.

@@ -152,6 +152,7 @@ LightEstimate EstimateByFit(const FittedLightInput& input, LightFilter* light_fi
     light.sun_source = Source::kMeasured;
     light.evidence.edges_agreeing = posterior.counted.edges - posterior.counted.edges_agreeing;
     found.skies.source = OvercastSky();
+    found.measured.sun_shines = false;
     light_filter->AddClouds();
     light_filter->Keep(light, found.skies);
     return found;

@@ -238,6 +238,21 @@ TEST(JudgeSite, NamesTimeAndHeadingThatFitASunElsewhere) {
   EXPECT_THAT(heading.remedy, HasSubstr("; a heading 90 degrees smaller at this time fits"));
 }
 
+TEST(JudgeSite, ExpectsNoShadowUnderClouds) {
+  const auto overcast = [](SiteFacts* site) {
+    site->light->sun_source = compositor::MeasuredLight::Source::kMeasured;
+    site->light->heading_source = compositor::MeasuredLight::Source::kDescription;
+    site->light->sun_shines = false;
+    site->light->sun_to_sky_stated = 0.0;
+    site->light->evidence.edges = 13;
+    site->light->evidence.edges_agreeing = 13;
+    site->light->evidence.edges_with_contrast = 0.0;
+  };
+  EXPECT_EQ(FindingOn("heading", overcast).verdict, SiteVerdict::kUnknown);
+  EXPECT_EQ(FindingOn("heading", overcast).text, "without sunlight no shadow shows it");
+  EXPECT_EQ(FindingOn("sky", overcast).verdict, SiteVerdict::kGood);
+}
+
 TEST(JudgeSite, ContradictsAWrongSky) {
   using Source = compositor::MeasuredLight::Source;
   const SiteFinding sunny = FindingOn("sky", [](SiteFacts* site) {

@@ -67,6 +67,7 @@ TEST(LightEstimator, SeesByPlanesThatNoSunShinesWhereAllLiesBehindAWall) {
   const LightEstimate veiled = settle({.sky_radiance_scale = {3, 3, 3}, .sun_scale = 0.0});
   EXPECT_LT(veiled.measured.evidence.edges, 3);
   EXPECT_EQ(veiled.measured.sun_source, MeasuredLight::Source::kMeasured);
+  EXPECT_FALSE(veiled.measured.sun_shines);
   ASSERT_NE(veiled.skies.source, nullptr);
   EXPECT_EQ(veiled.skies.source->ForSun({{0, 0, 1}}, 1.0)->SunNormalIrradiance().g, 0.0);
   // Under a sun in another direction the planes do not look overcast either.
@@ -82,6 +83,7 @@ TEST(LightEstimator, SeesByStatedColorsThatNoSunShinesWherePlanesOfOneMaterialDo
   const MeasuredLight veiled = settle({.sky_radiance_scale = {3, 3, 3}, .sun_scale = 0.0});
   EXPECT_LT(veiled.evidence.edges, 3);
   EXPECT_EQ(veiled.sun_source, MeasuredLight::Source::kMeasured);
+  EXPECT_FALSE(veiled.sun_shines);
   EXPECT_EQ(settle({}).sun_source, MeasuredLight::Source::kDescription);
 }
 
@@ -226,6 +228,7 @@ TEST(FittedLight, TellsSunCloudsAndASunElsewhereApart) {
   const LightEstimate veiled =
       Estimate(0.0, {.sky_radiance_scale = {3, 3, 3}, .sun_scale = 0.0}, Fitted());
   EXPECT_EQ(veiled.measured.sun_source, MeasuredLight::Source::kMeasured);
+  EXPECT_FALSE(veiled.measured.sun_shines);
   ASSERT_NE(veiled.skies.source, nullptr);
   EXPECT_EQ(veiled.skies.source->ForSun({{0, 0, 1}}, 1.0)->SunNormalIrradiance().g, 0.0);
   const LightEstimate elsewhere = Estimate(60.0, {}, Fitted());
