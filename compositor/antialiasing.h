@@ -26,7 +26,7 @@ constexpr std::string_view NameOf(AntialiasingMethod method) {
 
 /// A method of antialiasing and what it needs to be told.
 struct Antialiasing {
-  AntialiasingMethod method = AntialiasingMethod::kMultisample;
+  AntialiasingMethod method = AntialiasingMethod::kSubpixel;
   int places = 64;  ///< Places of a pixel, for methods that HasPlaces(): 4, 8, 16, 32 or 64.
 
   /// Whether the number of places can be chosen.

@@ -14,11 +14,11 @@ void AddAntialiasingOptions(CLI::App& command, AntialiasingArguments& arguments)
     names.emplace_back(compositor::NameOf(method));
   }
   command
-      .add_option(
-          "--antialiasing", arguments.method,
-          "Edges of virtual objects and shadows: msaa, four samples a pixel (default); "
-          "subpixel, also coverage at 64 places of pixels with edges; none, the pixel's centre; "
-          "reference, every place of a pixel drawn and shaded for itself, slow")
+      .add_option("--antialiasing", arguments.method,
+                  "Edges of virtual objects and shadows: subpixel, coverage at 64 places of pixels "
+                  "with edges "
+                  "(default); msaa, four samples a pixel, faster; none, the pixel's centre; "
+                  "reference, every place of a pixel drawn and shaded for itself, slow")
       ->check(CLI::IsMember(names))
       ->type_name("METHOD");
   command

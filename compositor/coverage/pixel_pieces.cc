@@ -22,9 +22,12 @@ bool PieceSorter::Piece::Has(const ScreenTriangle& triangle, float at_m) const {
 }
 
 PieceSorter::FoundTriangle* PieceSorter::Find(std::uint32_t number) {
-  // The last one first: neighboring places mostly show the same triangle.
-  for (std::size_t i = count_; i-- > 0;) {
-    if (found_[i].number == number) return &found_[i];
+  // Neighboring places mostly show the same triangle.
+  if (latest_ < count_ && found_[latest_].number == number) return &found_[latest_];
+  for (std::size_t i = 0; i < count_; ++i) {
+    if (found_[i].number != number) continue;
+    latest_ = i;
+    return &found_[i];
   }
   return nullptr;
 }
@@ -48,6 +51,7 @@ void PieceSorter::Add(std::uint32_t number, float nearness) {
     const ScreenTriangle& triangle = triangles_[number];
     has_holes_ = has_holes_ || triangle.has_holes;
     if (triangle.id == 0) return;  // Its light stays as it is.
+    latest_ = count_;
     at = &found_[count_++];
     *at = {number, 0, PieceOf(triangle, nearness)};
   }
@@ -111,7 +115,7 @@ PieceSorter::Written PieceSorter::Write(bool objects, int weight) const {
 PixelPieces PieceSorter::Sort(const PlacesOfPixel& places, std::size_t count,
                               std::size_t samples_at) {
   has_holes_ = false;
-  count_ = piece_count_ = 0;
+  count_ = piece_count_ = latest_ = 0;
   for (std::size_t i = 0; i < count; ++i) Add(places.triangles[i], places.nearness[i]);
   for (std::size_t i = 0; samples_at > 0 && i < 4; ++i) {
     const FoundTriangle* at = Find(places.triangles[samples_at + i]);

@@ -78,6 +78,7 @@ class PieceSorter {
   // The current pixel.
   bool has_holes_ = false;
   std::size_t count_ = 0, piece_count_ = 0;
+  std::size_t latest_ = 0;  // The triangle that was found last.
   std::array<FoundTriangle, kWeightOfPixel> found_;
   std::array<Piece, kWeightOfPixel> pieces_;
 };

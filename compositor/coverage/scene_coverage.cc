@@ -21,6 +21,12 @@ TriangleAtPixel::Plane PlaneAt(const glm::dvec3& plane, const glm::dvec3& at) {
           static_cast<float>(plane.y)};
 }
 
+/// Bits from `first` to `last`, as far as they are among the 64 of a word.
+std::uint64_t BitsBetween(int first, int last) {
+  const std::uint64_t from = first > 0 ? ~std::uint64_t{0} << first : ~std::uint64_t{0};
+  return last < 63 ? from & ((std::uint64_t{2} << last) - 1) : from;
+}
+
 /// Planes of a common edge of two triangles are negatives: one of the two has the edge.
 bool HasEdge(const TriangleAtPixel::Plane& edge) {
   return edge[1] > 0.0F || (edge[1] == 0.0F && edge[2] > 0.0F);
@@ -87,9 +93,10 @@ void SceneCoverage::MeasureRows(const PixelView& view, int first_row, int last_r
     for (int y = low; y <= high; ++y) {
       for (int word = triangle.first.x / 64; word <= triangle.last.x / 64; ++word) {
         const std::uint64_t bits = marks.Word(word, y);
-        for (std::uint64_t left = bits; left != 0; left &= left - 1) {
+        std::uint64_t left =
+            bits & BitsBetween(triangle.first.x - 64 * word, triangle.last.x - 64 * word);
+        for (; left != 0; left &= left - 1) {
           const int bit = std::countr_zero(left), x = 64 * word + bit;
-          if (x < triangle.first.x || x > triangle.last.x) continue;
           if (!SetAtPixel(triangle, {x + 0.5, y + 0.5, 1.0}, &here)) continue;
           const std::uint64_t before = bits & ((std::uint64_t{1} << bit) - 1);
           draw(here, places_of(marks.FirstOf(word, y) + std::popcount(before)));
