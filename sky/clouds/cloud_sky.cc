@@ -10,9 +10,9 @@
 #include <utility>
 
 #include "base/parallel_for.h"
-#include "sky/clouds/cloud_phase.h"
 #include "sky/clouds/cloud_slab.h"
 #include "sky/clouds/higher_orders.h"
+#include "sky/clouds/layer_march.h"
 #include "sky/clouds/tilted_columns.h"
 
 namespace pleinair::clouds {
@@ -27,6 +27,9 @@ const SlabTable& TableOf(const CloudField& field) {
 /// Means over the area.
 LayerShares SharesOf(const CloudField& field, Direction<World> to_sun, double seconds) {
   constexpr int kSamples = 100;
+  // The square is a period of fields with such cells. The same columns then give steady means.
+  constexpr double kMaxPeriodicCell_m = 8000.0;
+  const double age_s = field.layer().cell_m > kMaxPeriodicCell_m ? seconds : 0.0;
   const auto place = [](int i) {
     const int column = i % kSamples, row = i / kSamples;
     return Vec3{((column + 0.5) / kSamples - 0.5) * kCoverSquare_m,
@@ -34,14 +37,21 @@ LayerShares SharesOf(const CloudField& field, Direction<World> to_sun, double se
   };
   return SharesOfTiltedColumns(
       TableOf(field), to_sun.xyz.z, kSamples * kSamples,
-      [&](int i) { return field.DepthAlong(place(i), to_sun.xyz, seconds); },
-      [&](int i) { return field.ColumnDepth(place(i).x, place(i).y, seconds); });
+      [&](int i) { return field.DepthAlong(place(i), to_sun.xyz, age_s); },
+      [&](int i) { return field.ColumnDepth(place(i).x, place(i).y, age_s); });
 }
 
-}  // namespace
+std::vector<LayerShares> SharesOf(const CloudFields& fields, Direction<World> to_sun,
+                                  double seconds) {
+  std::vector<LayerShares> shares;
+  shares.reserve(fields.size());
+  for (const auto& field : fields) shares.push_back(SharesOf(*field, to_sun, seconds));
+  return shares;
+}
 
-AreaLight ComputeAreaLight(const CloudFields& fields, const sky::SkyModel& clear,
-                           double ground_albedo, double seconds) {
+/// `of_layer`: SharesOf().
+AreaLight AreaLightOf(const CloudFields& fields, const std::vector<LayerShares>& of_layer,
+                      const sky::SkyModel& clear, double ground_albedo) {
   const std::size_t count = fields.size();
   // From the highest base down, whatever the order of the fields.
   std::vector<std::size_t> order(count);
@@ -51,7 +61,7 @@ AreaLight ComputeAreaLight(const CloudFields& fields, const sky::SkyModel& clear
   });
   std::vector<LayerShares> shares;
   shares.reserve(count);
-  for (const std::size_t i : order) shares.push_back(SharesOf(*fields[i], clear.ToSun(), seconds));
+  for (const std::size_t i : order) shares.push_back(of_layer[i]);
   LinearRgb sun = clear.SunNormalIrradiance() * std::max(0.0, clear.ToSun().xyz.z);
   std::vector<LinearRgb> from_sun_down, from_sun_up;
   from_sun_down.reserve(count);
@@ -83,6 +93,13 @@ AreaLight ComputeAreaLight(const CloudFields& fields, const sky::SkyModel& clear
   light.sun_horizontal = sun;
   light.sky_horizontal = down[count];
   return light;
+}
+
+}  // namespace
+
+AreaLight ComputeAreaLight(const CloudFields& fields, const sky::SkyModel& clear,
+                           double ground_albedo, double seconds) {
+  return AreaLightOf(fields, SharesOf(fields, clear.ToSun(), seconds), clear, ground_albedo);
 }
 
 namespace {
@@ -136,7 +153,11 @@ class ClearSkyShape {
 }  // namespace
 
 struct CloudSky::Optics {
-  std::vector<HigherOrders> higher;            ///< One per layer.
+  struct OfLayer {
+    HigherOrders orders;
+    double scale;  ///< MeanHigherScale().
+  };
+  std::vector<OfLayer> higher;                 ///< One per layer.
   std::optional<ClearSkyShape> above_highest;  ///< Nothing without layers.
   double global_share = 1.0;                   ///< Share of the clear sky's global illuminance.
   std::once_flag dome_made;
@@ -156,10 +177,13 @@ CloudSky::CloudSky(std::unique_ptr<sky::SkyModel> clear, CloudFields fields, dou
   });
   const Direction<World> to_sun = clear_->ToSun();
   sun_transmittance_ = SunTransmittance(fields_, {}, to_sun, seconds);
-  area_ = ComputeAreaLight(fields_, *clear_, ground_albedo, seconds);
+  const std::vector<LayerShares> shares = SharesOf(fields_, to_sun, seconds);
+  area_ = AreaLightOf(fields_, shares, *clear_, ground_albedo);
   optics_->higher.reserve(fields_.size());
-  for (const auto& field : fields_) {
-    optics_->higher.emplace_back(field->layer().kind, to_sun.xyz.z);
+  for (std::size_t i = 0; i < fields_.size(); ++i) {
+    HigherOrders orders(fields_[i]->layer().kind, to_sun.xyz.z);
+    const double down = (shares[i].Transmitted() - shares[i].direct) * to_sun.xyz.z;
+    optics_->higher.push_back({orders, MeanHigherScale(*fields_[i], orders, to_sun.xyz, down)});
   }
   if (!fields_.empty()) optics_->above_highest.emplace(*clear_, TableOf(*fields_.back()));
   const double sun = Luminance(clear_->SunNormalIrradiance()) * std::max(0.0, to_sun.xyz.z);
@@ -176,41 +200,23 @@ CloudSky::Seen CloudSky::Look(Direction<World> from) const {
   constexpr double kMinRise = 0.01;
   const Vec3 view =
       from.xyz.z >= kMinRise ? from.xyz : Normalized({from.xyz.x, from.xyz.y, kMinRise});
-  constexpr int kSunSteps = 6;
   const Vec3 sun = ToSun().xyz;
-  const double cosine = Dot(view, sun);
   const LinearRgb sunlight = sun.z > 0.0 ? clear_->SunNormalIrradiance() : LinearRgb{};
   const bool lit = Luminance(sunlight) > 0.0;
   for (std::size_t i = 0; i < fields_.size(); ++i) {
     const CloudField& field = *fields_[i];
-    const double first_phase = CloudPhase(field.layer().kind, cosine) / (4.0 * pi);
-    const HigherOrders& higher = optics_->higher[i];
-    const HigherOrders::Phases phases = higher.PhasesAt(cosine);
-    double transmitted = 1.0, ray_depth = 0.0, scattered = 0.0;
-    std::optional<Vec3> first_m;
-    field.March({}, view, seconds_, [&](double depth, Vec3 middle, double column, double length) {
-      ray_depth += depth;
-      if (!first_m) first_m = middle;
-      if (!lit || transmitted < 1e-4) return;
-      // Light leaves a piece from where the mean photon does: near its lower end if it is dense.
-      const double where = depth < 1e-3 ? 0.5 : 1.0 / depth - 1.0 / std::expm1(depth);
-      const Vec3 place = middle + view * ((where - 0.5) * length);
-      const double sun_depth = field.DepthAlong(place, sun, seconds_, kSunSteps);
-      const double kept = std::exp(-depth);
-      scattered += transmitted * (1.0 - kept) *
-                   (first_phase * std::exp(-sun_depth) + higher.Source(phases, sun_depth, column));
-      transmitted *= kept;
-    });
-    if (!first_m) continue;
+    const LayerRay ray = MarchLayer(field, optics_->higher[i].orders, {}, view, sun, lit, seconds_);
+    if (!ray.cloud_m) continue;
+    const double scattered = ray.first + optics_->higher[i].scale * ray.higher;
     double above = 0.0;  // Optical depth of the higher layers towards the sun.
     for (std::size_t j = i + 1; lit && j < fields_.size(); ++j) {
-      above += fields_[j]->DepthAlong(*first_m, sun, seconds_);
+      above += fields_[j]->DepthAlong(*ray.cloud_m, sun, seconds_);
     }
     const double shadow = std::exp(-above);
-    const double through = std::exp(-ray_depth);
-    const double reflected = TableOf(field).Reflected(ray_depth * view.z, view.z);
+    const double through = std::exp(-ray.depth);
+    const double reflected = TableOf(field).Reflected(ray.depth * view.z, view.z);
     const double shape =
-        i + 1 == fields_.size() ? optics_->above_highest->Factor(ray_depth * view.z) : 1.0;
+        i + 1 == fields_.size() ? optics_->above_highest->Factor(ray.depth * view.z) : 1.0;
     const LinearRgb cloud =
         sunlight * (shadow * scattered) +
         area_.layers[i].sky_above * (shape * std::max(0.0, 1.0 - reflected - through) / pi) +
@@ -239,7 +245,7 @@ LinearRgb CloudSky::SunNormalIrradiance() const {
 // Two grids, with weights that add to 1: one of the dome, and a finer one around the sun. There the
 // aureole of thin clouds is narrower than the dome's cells.
 LinearRgb CloudSky::IntegrateDome() const {
-  constexpr int kRings = 128, kSectors = 256, kSunRings = 40, kSunSectors = 48;
+  constexpr int kRings = 96, kSectors = 192, kSunRings = 40, kSunSectors = 48;
   constexpr double kInner = 3.0 * kRadiansPerDegree, kOuter = 10.0 * kRadiansPerDegree;
   const auto dome_weight = [](double from_sun) {
     const double x = std::clamp((from_sun - kInner) / (kOuter - kInner), 0.0, 1.0);
