@@ -72,8 +72,7 @@ class GlComposer : public Composer {
                            LinearRgb exposure_scale) override;
   void SetMarkerMargin(double board_size_m) override { unmodelled_.margin_size_m = board_size_m; }
   void AssumeUnmodelledShadows(bool look) override { unmodelled_.assume_unmodelled = look; }
-  Result<void> SetSunTransmittance(
-      const std::shared_ptr<const SunTransmittanceMap>& sun_transmittance) override;
+  Result<void> SetSunTransmittance(const SunShade& shade) override;
   void SetLens(const std::optional<ThinLens>& lens, int places) override {
     lens_.SetLens(lens, places);
   }
@@ -226,10 +225,9 @@ void GlComposer::SetSun(const sky::SkyModel& day, const Mat3& marker_from_world)
   SetLightColors(day);
 }
 
-Result<void> GlComposer::SetSunTransmittance(
-    const std::shared_ptr<const SunTransmittanceMap>& sun_transmittance) {
+Result<void> GlComposer::SetSunTransmittance(const SunShade& shade) {
   PLEINAIR_RETURN_IF_ERROR(context_.MakeCurrent());
-  return light_.SetTransmittance(sun_transmittance);
+  return light_.SetShade(shade);
 }
 
 Result<void> GlComposer::DrawDebugView(const shadows::View& view) {
@@ -251,7 +249,7 @@ Result<void> GlComposer::SortSurfaces() {
   SunOnPhantoms sun;
   // Where sunlight is measured in the image, it also affects how much a change of sky light
   // matters. The sun then counts on all triangles.
-  sun.whole = unmodelled_.assume_unmodelled || light_.IsShadedByUnmodelled();
+  sun.whole = unmodelled_.assume_unmodelled || light_.IsShaded();
   if (light_.HasSun()) {
     sun.window = shadows_.Window();
     sun.normal_lux = ToGlm(light_.SunNow());
@@ -267,7 +265,7 @@ void GlComposer::DrawScene(const SurfacePrograms& programs, const FrameUniforms&
   passes_.ratio.DrawSurfaces(canvas_.targets, surfaces_, frame, tiles.fine.Bounds());
   passes_.objects.DrawSurfaces(canvas_.targets, surfaces_, frame, tiles.objects.Bounds());
   glDisable(GL_CULL_FACE);
-  light_.transmittance().Bind(5);
+  light_.BindShade();
   passes_.objects.Draw(canvas_.targets, surfaces_, canvas_.coverage, programs, frame,
                        light_.environment(), tiles.objects.Rectangles());
   canvas_.picture.BindForShading(2, 3, 4);
@@ -304,6 +302,7 @@ AffectedTiles GlComposer::DrawCoarse(const SurfacePrograms& programs, const shad
                    canvas_.picture.Spread_px() + canvas_.places.Spread_px() + lens_spread_px);
   image.resolves_sunlit_sky = frame.needs_airlight;
   AffectedTiles tiles = surfaces_.TilesOf(image);
+  light_.BindShade();
   if (options_.show_shadow_maps) tiles.all.IncludeAll();
   if (frame.linear_needs_airlight) tiles.fine.Include(tiles.all);
   const ImageTiles coarse = tiles.all.Without(tiles.fine);

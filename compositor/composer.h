@@ -91,10 +91,9 @@ class Composer {
   /// shaded.
   virtual void AssumeUnmodelledShadows(bool look) = 0;
 
-  /// Sets the unmodelled objects' sun transmittance towards the virtual objects; null, the default:
-  /// all of the sun. Errors: no memory.
-  virtual Result<void> SetSunTransmittance(
-      const std::shared_ptr<const SunTransmittanceMap>& sun_transmittance) = 0;
+  /// Sets what takes a part of the sun besides the scene's own geometry; by default nothing does.
+  /// Errors: no memory.
+  virtual Result<void> SetSunTransmittance(const SunShade& shade) = 0;
 
   /// Sets the blur and noise of the camera, which drawn pixels receive. Without a look, drawn
   /// pixels stay sharp and clean. Blur of the rendering itself (half a pixel's width) is not added

@@ -82,7 +82,7 @@ Result<const RealOccluders*> LensDrawing::Draw(const LensScene& scene, const Fra
   };
   const auto shade_objects = [&](std::span<const PixelRect> hidden) {
     glEnable(GL_DEPTH_TEST);
-    scene.light.transmittance().Bind(5);
+    scene.light.BindShade();
     // The coverage of edges is that of the whole scene.
     scene.objects.Draw(canvas.targets, scene.surfaces, CoveragePass(), scene.programs, frame,
                        scene.light.environment(), hidden);

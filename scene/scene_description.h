@@ -14,11 +14,18 @@
 #include "scene/described_surface.h"
 #include "scene/leaf_description.h"
 #include "scene/trajectory_description.h"
+#include "sky/clouds/cloud_layer.h"
 
 namespace pleinair::scene {
 
 /// Cloudiness as an observer on site describes it.
 enum class Cloudiness { kClear, kHazy, kPartlyCloudy, kOvercast };
+
+/// Layers of clouds. The sky between them is clear, whatever the word for it.
+struct CloudDescription {
+  std::vector<clouds::CloudLayer> layers;
+  std::optional<Cloudiness> ignored_word;  ///< Stated beside layers.
+};
 
 /// Place and start time of the recording.
 struct PlaceTime {
@@ -102,9 +109,8 @@ struct SceneDescription {
   std::vector<ModelReference> objects;   ///< Virtual objects.
   std::vector<LeafDescription> leaves;   ///< In place of materials of the objects.
   Cloudiness cloudiness = Cloudiness::kClear;
-  std::optional<double> turbidity;          ///< Overrides the default of the cloudiness.
-  std::optional<LinearRgb> exposure_scale;  ///< Overrides the exposure scale estimated on the
-                                            ///< marker.
+  CloudDescription clouds;
+  std::optional<double> turbidity;  ///< Overrides the default of the cloudiness.
   CameraDescription camera;
 };
 

@@ -258,9 +258,10 @@ Result<std::optional<ModelReference>> CompleteGround(const SceneFacts& facts, bo
 }
 
 Result<void> CheckLight(const SceneFacts& facts, const std::string& name) {
-  if (facts.exposure_scale) {
+  if (facts.camera.exposure_scale) {
     for (const double exposure_scale :
-         {facts.exposure_scale->r, facts.exposure_scale->g, facts.exposure_scale->b}) {
+         {facts.camera.exposure_scale->r, facts.camera.exposure_scale->g,
+          facts.camera.exposure_scale->b}) {
       if (!Within(exposure_scale, 1e-12, 1e12)) {
         return InputError(
             name, "has an exposure_gain of " + Short(exposure_scale) + ", outside 1e-12 to 1e+12",
@@ -348,8 +349,13 @@ Result<SceneDescription> CompleteScene(const SceneFacts& facts, const std::files
     }
   }
   scene.cloudiness = facts.cloudiness.value_or(Cloudiness::kClear);
+  scene.clouds.layers = facts.cloud_layers;
+  if (!scene.clouds.layers.empty()) {
+    scene.clouds.ignored_word = facts.cloudiness;
+    scene.cloudiness = Cloudiness::kClear;
+  }
   scene.turbidity = facts.turbidity;
-  scene.exposure_scale = facts.exposure_scale;
+  scene.camera.exposure_scale = facts.camera.exposure_scale;
   scene.camera.response = facts.camera.response;
   return scene;
 }

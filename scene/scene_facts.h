@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "scene/scene_description.h"
 #include "scene/trajectory_description.h"
+#include "sky/clouds/cloud_layer.h"
 
 namespace pleinair::scene {
 
@@ -56,10 +57,10 @@ struct SceneFacts {
   std::vector<ModelReference> phantoms, objects;  ///< Paths as in the file, relative to the scene's
                                                   ///< folder.
   std::vector<LeafDescription> leaves;
+  std::vector<clouds::CloudLayer> cloud_layers;
   GroundFacts ground;
   std::optional<Cloudiness> cloudiness;
   std::optional<double> turbidity;
-  std::optional<LinearRgb> exposure_scale;
   CameraDescription camera;
 
   /// True if place, time and marker, which every scene needs, are all missing.

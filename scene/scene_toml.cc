@@ -7,6 +7,7 @@
 
 #include "scene/cloudiness.h"
 #include "scene/scene_facts.h"
+#include "scene/toml_clouds.h"
 #include "scene/toml_leaves.h"
 #include "scene/toml_lens.h"
 #include "scene/toml_surfaces.h"
@@ -91,9 +92,10 @@ Result<std::vector<AnchorFacts>> ReadAnchors(const TomlTable& scene) {
 }
 
 Result<SceneFacts> ReadScene(const TomlTable& scene) {
-  PLEINAIR_RETURN_IF_ERROR(scene.AllowOnly(
-      {"time", "cloudiness", "turbidity", "exposure_gain", "camera_response", "place", "marker",
-       "anchor", "ground", "box", "wall", "phantom", "object", "leaf", "trajectory", "lens"}));
+  PLEINAIR_RETURN_IF_ERROR(
+      scene.AllowOnly({"time", "cloudiness", "turbidity", "exposure_gain", "camera_response",
+                       "place", "marker", "anchor", "ground", "box", "wall", "phantom", "object",
+                       "leaf", "trajectory", "lens", "cloud_layer"}));
   SceneFacts facts;
   PLEINAIR_ASSIGN_OR_RETURN(facts.place_time.start, ReadTime(scene, "time"));
   PLEINAIR_ASSIGN_OR_RETURN(const std::vector<TomlTable> places, scene.Tables("place"));
@@ -113,6 +115,7 @@ Result<SceneFacts> ReadScene(const TomlTable& scene) {
   PLEINAIR_RETURN_IF_ERROR(ReadGround(scene, &facts.ground));
   PLEINAIR_ASSIGN_OR_RETURN(facts.objects, ReadModels(scene, "object"));
   PLEINAIR_ASSIGN_OR_RETURN(facts.leaves, ReadLeaves(scene));
+  PLEINAIR_ASSIGN_OR_RETURN(facts.cloud_layers, ReadCloudLayers(scene));
   PLEINAIR_ASSIGN_OR_RETURN(const std::optional<std::string> sky, scene.Text("cloudiness"));
   if (sky) {
     facts.cloudiness = ParseCloudiness(*sky);
@@ -124,7 +127,8 @@ Result<SceneFacts> ReadScene(const TomlTable& scene) {
   PLEINAIR_ASSIGN_OR_RETURN(const std::optional<Vec3> exposure_scale,
                             scene.Triple("exposure_gain"));
   if (exposure_scale)
-    facts.exposure_scale = LinearRgb{exposure_scale->x, exposure_scale->y, exposure_scale->z};
+    facts.camera.exposure_scale =
+        LinearRgb{exposure_scale->x, exposure_scale->y, exposure_scale->z};
   PLEINAIR_ASSIGN_OR_RETURN(const auto response, scene.Text("camera_response"));
   if (response) {
     facts.camera.response =

@@ -37,6 +37,7 @@ BackgroundLight::BackgroundLight(Setup setup)
       shared_{.wanted = {setup_.edit, setup_.time, setup_.marker_reflectance},
               .next_estimate = setup_.time} {
   UseOverriddenSky(setup_.time, &setup_.skies);
+  known_.clouds = clouds::MakeFields(setup_.scene.clouds.layers);
 }
 
 Result<std::unique_ptr<BackgroundLight>> BackgroundLight::Create(Setup setup) {
@@ -221,7 +222,9 @@ LightingRequest BackgroundLight::LightingRequestFor(
           std::move(solver),
           placed_.coefficients,
           wanted.marker_reflectance,
-          setup_.response};
+          setup_.response,
+          known_.clouds,
+          setup_.light.changes == LightChangeMode::kStated};
 }
 
 void BackgroundLight::Make(const Wanted& wanted,
@@ -267,7 +270,8 @@ void BackgroundLight::EstimateLight(const Shown& shown, const Wanted& wanted) {
   const auto colors =
       known_.estimator->MeasureColors(found, UncoloredSurfaces(setup_.scene.phantoms));
   known_.estimator.reset();
-  known_.found = found.skies;
+  // The frames may show any part of the stated clouds' light.
+  if (setup_.light.changes != LightChangeMode::kStated) known_.found = found.skies;
   if (known_.found.source) UseOverriddenSky(shown.time, &known_.found);
   known_.heading = found.heading;
   made_.wanted.reset();

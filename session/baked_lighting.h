@@ -13,7 +13,9 @@
 #include "compositor/photometry/marker/marker_light_meter.h"
 #include "compositor/photometry/sky_state.h"
 #include "scene/scene_description.h"
+#include "session/clouds/clouded_day.h"
 #include "session/scene_edit.h"
+#include "sky/clouds/cloud_shadow.h"
 #include "sky/sky_model.h"
 #include "sky/sun/sun_position.h"
 
@@ -31,6 +33,13 @@ struct LightingRequest {
   std::shared_ptr<const compositor::DaylightCoefficients> coefficients;
   scene::MarkerReflectance marker_reflectance;
   CameraResponse response;
+  /// Layers of clouds at their age of `time`; empty: none.
+  clouds::CloudFields clouds = {};
+  /// True: their sky lights the scene. False: `skies` do, and the layers show in reflections.
+  bool clouds_rule = true;
+
+  /// Age of the layers at a time: seconds since the scene begins.
+  double CloudSeconds(UtcTime at) const;
 };
 
 /// Baked lighting at one moment: sun, sky, indirect illumination, and the light meter with the
@@ -43,14 +52,22 @@ struct BakedLighting {
   LightingRequest request;
   Mat3 marker_from_world;
   sky::SunPosition sun;
+  /// Null without layers of clouds that rule the light. The sun is the one above them.
+  std::shared_ptr<const CloudedDay> clouded;
   std::shared_ptr<const sky::SkyModel> model;
   compositor::ScaledSky daylight;
   std::vector<compositor::LitMesh> meshes;
+  /// What glossy surfaces mirror, under layers that do not rule the light; else null.
+  std::shared_ptr<const sky::SkyModel> mirrored;
   LinearRgb from_below;                               ///< LightSolver::RadianceFromBelow().
   std::optional<compositor::MarkerLightMeter> meter;  ///< Empty where the request has no marker.
   std::vector<ObjectPlace> objects;    ///< Positions of the objects; empty: as described.
   std::vector<SurfacePlace> phantoms;  ///< Positions of the phantoms; empty: as described.
 };
+
+/// The skies of a request without its clouds, for the sun at a time.
+std::unique_ptr<sky::SkyModel> ClearSkyOf(const LightingRequest& request,
+                                          const sky::SunPosition& sun);
 
 /// True if the sun is still near the position of the baked indirect illumination, so that this need
 /// not be computed again.

@@ -2,6 +2,18 @@
 
 namespace pleinair::session {
 
+const char* NameOf(LightChangeMode mode) {
+  switch (mode) {
+    case LightChangeMode::kFollow:
+      return "follow";
+    case LightChangeMode::kHold:
+      return "hold";
+    case LightChangeMode::kStated:
+      return "stated";
+  }
+  return "follow";
+}
+
 scene::SceneDescription WithGiven(const scene::SceneDescription& scene,
                                   const LightOptions& options) {
   scene::SceneDescription given = scene;

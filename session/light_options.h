@@ -14,7 +14,11 @@ namespace pleinair::session {
 enum class LightChangeMode {
   kFollow,  ///< Sun and sky are estimated in each frame.
   kHold,    ///< One light for the whole recording; only the exposure may change.
+  kStated,  ///< Described sun and clear sky, times what the scene's layers of clouds leave of them.
 };
+
+/// "follow", "hold", "stated".
+const char* NameOf(LightChangeMode mode);
 
 /// In place of the name of a response file.
 inline constexpr const char* kSrgbResponse = "srgb";

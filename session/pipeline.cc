@@ -36,6 +36,10 @@ Result<std::unique_ptr<Pipeline>> Pipeline::Create(const CameraModel& camera,
   std::unique_ptr<Pipeline> pipeline(
       new Pipeline(camera, WithGiven(scene, options.light), options));
   const scene::SceneDescription& given = pipeline->scene_;
+  if (options.light.changes == LightChangeMode::kStated && given.clouds.layers.empty()) {
+    return InputError(given.file.string(), "has no layers of clouds for --light-changes stated",
+                      "add a [[cloud_layer]], or follow the light");
+  }
   PLEINAIR_ASSIGN_OR_RETURN(const tracker::TrackerOptions tracking, TrackingOf(given));
   auto tracker = tracker::Tracker::Create(camera, tracking);
   if (!tracker) {

@@ -9,6 +9,18 @@
 #include "scene/sun_over_place.h"
 
 namespace pleinair::session {
+namespace {
+
+compositor::MeasuredLight WithoutMeasuredSun(const compositor::MeasuredLight& measured) {
+  compositor::MeasuredLight heading;
+  heading.heading_source = measured.heading_source;
+  heading.heading_offset = measured.heading_offset;
+  heading.heading_error = measured.heading_error;
+  heading.evidence = measured.evidence;
+  return heading;
+}
+
+}  // namespace
 
 std::set<int> UncoloredSurfaces(const std::vector<scene::ModelReference>& phantoms) {
   std::set<int> uncolored;
@@ -29,6 +41,12 @@ SceneLight::SceneLight(std::shared_ptr<const compositor::LightSolver> solver,
                        const scene::SceneDescription& scene, const LightOptions& options)
     : solver_(std::move(solver)), options_(options) {
   skies_.source = compositor::DescribedSky(scene);
+  const clouds::CloudFields fields = clouds::MakeFields(scene.clouds.layers);
+  if (options.changes == LightChangeMode::kStated) {
+    clouds_.stated.emplace(fields);
+  } else {
+    clouds_.mirrored = fields;
+  }
 }
 
 void SceneLight::Observe(CameraImageView image, const CameraModel& camera,
@@ -52,7 +70,13 @@ std::optional<SceneLight::Conclusion> SceneLight::Conclude(const std::set<int>& 
   found.colors = estimator_->MeasureColors(found.light, uncolored);
   estimator_.reset();
   concluded_ = true;
-  if (found.light.skies.source) skies_ = found.light.skies;
+  if (clouds_.stated) {
+    // The frames may show any part of the stated clouds' light.
+    skies_.unmodelled_shadows = found.light.skies.unmodelled_shadows;
+    found.light.measured = WithoutMeasuredSun(found.light.measured);
+  } else if (found.light.skies.source) {
+    skies_ = found.light.skies;
+  }
   return found;
 }
 
@@ -126,8 +150,16 @@ std::shared_ptr<const compositor::DaylightCoefficients> SceneLight::Coefficients
 LightingRequest SceneLight::Request(UtcTime time, const scene::SceneDescription& scene,
                                     const scene::MarkerReflectance& marker_reflectance,
                                     const CameraResponse& response) const {
-  return {time,    scene.place_time, scene.marker,       skies_,
-          solver_, coefficients_,    marker_reflectance, response};
+  return {time,
+          scene.place_time,
+          scene.marker,
+          skies_,
+          solver_,
+          coefficients_,
+          marker_reflectance,
+          response,
+          clouds_.stated ? clouds_.stated->fields() : clouds_.mirrored,
+          clouds_.stated.has_value()};
 }
 
 bool SceneLight::IsStale(const sky::SunPosition& sun) const {

@@ -24,6 +24,7 @@
 #include "scene/marker_reflectance.h"
 #include "scene/scene_description.h"
 #include "session/baked_lighting.h"
+#include "session/clouds/stated_light.h"
 #include "session/light_fade.h"
 #include "session/light_follower.h"
 #include "session/light_options.h"
@@ -117,6 +118,12 @@ class SceneLight {
   /// next call, or Use().
   const std::vector<compositor::LitMesh>* FadedMeshes(UtcTime time);
 
+  /// The light of a frame by the stated layers of clouds; nothing without them. Requires in_use().
+  std::optional<StatedLight::OfFrame> StatedAt(UtcTime time, const sky::SunPosition& sun) {
+    if (!clouds_.stated) return std::nullopt;
+    return clouds_.stated->At(in_use_, time, sun);
+  }
+
   /// The illumination in use; null before the first.
   const BakedLighting* in_use() const { return in_use_.get(); }
   bool made_elsewhere() const { return made_elsewhere_; }
@@ -131,6 +138,11 @@ class SceneLight {
   std::shared_ptr<const compositor::DaylightCoefficients> coefficients_;
   std::unique_ptr<compositor::LightEstimator> estimator_;  // For the frames so far.
   bool concluded_ = false;
+  /// Layers of clouds.
+  struct {
+    std::optional<StatedLight> stated;  // By LightChangeMode::kStated.
+    clouds::CloudFields mirrored;       // In other modes they show in reflections.
+  } clouds_;
   std::shared_ptr<const BakedLighting> in_use_;
   bool made_elsewhere_ = false;
   LightFade fade_;                         // Fades into light made elsewhere.

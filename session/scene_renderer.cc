@@ -11,8 +11,6 @@
 
 #include "compositor/light/light_solver.h"
 #include "compositor/light/scaled_sky.h"
-#include "compositor/models/animation/model_animation.h"
-#include "compositor/models/gltf_pose.h"
 #include "compositor/photometry/sky_fit.h"
 #include "compositor/surfaces/polygon_model.h"
 #include "devices/calibration/response_file.h"
@@ -35,53 +33,7 @@ double MillisecondsSince(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-compositor::NormalsMode NormalsOf(scene::Shading shading) {
-  switch (shading) {
-    case scene::Shading::kFromFile:
-      return compositor::NormalsMode::kFromFile;
-    case scene::Shading::kFlat:
-      return compositor::NormalsMode::kFlat;
-    case scene::Shading::kSmooth:
-      return compositor::NormalsMode::kSmooth;
-  }
-  return compositor::NormalsMode::kFromFile;
-}
-
-/// Loads the model of a reference, at rest, or with its animation if it plays one.
-Result<compositor::AnimatedModel> ModelOf(const scene::ModelReference& reference, bool is_phantom,
-                                          const scene::MarkerDescription& marker) {
-  if (reference.surface) {
-    const scene::DescribedSurface& surface = *reference.surface;
-    return compositor::AnimatedModel{
-        compositor::PolygonModel(surface.name, surface.polygons, surface.reflectance), nullptr};
-  }
-  const compositor::ModelFrame frame{reference.up, marker.upright ? UpAxis::kY : UpAxis::kZ,
-                                     reference.unit_m.value_or(1.0),
-                                     reference.origin == scene::ModelOrigin::kBottomCentre};
-  const compositor::ModelOptions options{NormalsOf(reference.shading), is_phantom, frame};
-  if (!reference.animation.empty() && !is_phantom) {
-    return compositor::LoadAnimatedModel(reference.file, options, reference.animation);
-  }
-  PLEINAIR_ASSIGN_OR_RETURN(
-      compositor::Model model,
-      compositor::LoadModel(reference.file, options,
-                            {reference.animation, reference.animation_start_s}));
-  return compositor::AnimatedModel{std::move(model), nullptr};
-}
-
 }  // namespace
-
-Result<compositor::PlacedModel> PlaceModel(const scene::ModelReference& reference, bool is_phantom,
-                                           const scene::MarkerDescription& marker) {
-  PLEINAIR_ASSIGN_OR_RETURN(compositor::AnimatedModel loaded,
-                            ModelOf(reference, is_phantom, marker));
-  compositor::PlacedModel placed;
-  placed.model = std::make_shared<const compositor::Model>(std::move(loaded.model));
-  placed.is_phantom = is_phantom;
-  placed.playback = {std::move(loaded.animation), reference.animation_start_s, reference.loop};
-  MoveTo({reference.translation_m, reference.rotation_deg, reference.scale}, &placed);
-  return placed;
-}
 
 SceneRenderer::SceneRenderer(const CameraModel& camera, const scene::SceneDescription& scene)
     : camera_(camera), scene_(scene) {}
@@ -225,9 +177,11 @@ Result<void> SceneRenderer::TakeLight(std::shared_ptr<const BakedLighting> light
   const double white = scene_.marker.albedo_white / std::numbers::pi;
   exposure_.SetGuess(LinearRgb{kGuessedWhite, kGuessedWhite, kGuessedWhite} / (ground * white));
   composer_->AssumeUnmodelledShadows(light->request.skies.unmodelled_shadows);
-  PLEINAIR_RETURN_IF_ERROR(composer_->SetSunTransmittance(light->request.skies.sun_transmittance));
   PLEINAIR_RETURN_IF_ERROR(
-      composer_->SetLight(light->meshes, daylight, marker_from_world, light->from_below));
+      composer_->SetSunTransmittance({.trees = light->request.skies.sun_transmittance}));
+  PLEINAIR_RETURN_IF_ERROR(composer_->SetLight(light->meshes,
+                                               light->mirrored ? *light->mirrored : daylight,
+                                               marker_from_world, light->from_below));
   exposure_.SetMeter(light->meter);
   // Beside bodies that change their shape, the composer has its own indirect illumination.
   const bool fades = std::ranges::none_of(
@@ -309,9 +263,9 @@ Result<void> SceneRenderer::UpdateLight(UtcTime time) {
 void SceneRenderer::UpdateExposureScale(CameraImageView image,
                                         const std::optional<Transform<Camera, Marker>>& marker,
                                         const FollowedLight& followed) {
-  if (scene_.exposure_scale) {
+  if (scene_.camera.exposure_scale) {
     summary_.exposure_scale_source = LightSummary::ExposureScaleSource::kScene;
-    summary_.exposure_scale = *scene_.exposure_scale * followed.exposure;
+    summary_.exposure_scale = *scene_.camera.exposure_scale * followed.exposure;
     return;
   }
   exposure_.Read(image, camera_, marker, light_->skies().marker_shade, followed, &summary_);
@@ -325,6 +279,14 @@ void SceneRenderer::SummarizeLight(const FollowedLight& followed) {
   summary_.frame.sun_on_white =
       baked.daylight.SunNormalIrradiance() * sine_sun * followed.mix.sun * white;
   summary_.frame.sky_on_white = baked.daylight.SkyHorizontalIrradiance() * followed.mix.sky * white;
+  if (followed.source != compositor::FrameLight::Source::kStated) return;
+  // The baked light has the sun above the clouds.
+  const double sun = Luminance(summary_.frame.sun_on_white);
+  const double sky = Luminance(summary_.frame.sky_on_white);
+  summary_.sun_normal_lux = Luminance(baked.daylight.SunNormalIrradiance() * followed.mix.sun);
+  summary_.sky_horizontal_lux =
+      Luminance(baked.daylight.SkyHorizontalIrradiance() * followed.mix.sky);
+  summary_.measured.sun_to_sky = sky > 0.0 ? sun / sky : 0.0;
 }
 
 void SceneRenderer::UseLensOf(std::int64_t frame_index) {
@@ -344,11 +306,16 @@ Result<void> SceneRenderer::UpdateCameraLook(CameraImageView image,
 
 Result<void> SceneRenderer::Follow(CameraImageView image,
                                    const Transform<Camera, Marker>& camera_from_marker,
-                                   UtcTime time, const FollowedLight& followed, bool shows_marker) {
+                                   UtcTime time, FollowedLight followed, bool shows_marker) {
   times_ = {};
   if (!composer_) return {};
   auto start = Clock::now();
-  PLEINAIR_RETURN_IF_ERROR(UpdateLight(time.PlusSeconds(edited_.later_s)));
+  const UtcTime lit_at = time.PlusSeconds(edited_.later_s);
+  PLEINAIR_RETURN_IF_ERROR(UpdateLight(lit_at));
+  if (auto stated = light_->StatedAt(lit_at, summary_.sun)) {
+    followed = stated->followed;
+    PLEINAIR_RETURN_IF_ERROR(composer_->SetSunTransmittance({.clouds = stated->shadow}));
+  }
   PLEINAIR_RETURN_IF_ERROR(composer_->SetLightMix(light_->in_use()->meshes, followed.mix));
   // Last: it draws other meshes, with the same mix.
   PLEINAIR_RETURN_IF_ERROR(FadeLight(time));

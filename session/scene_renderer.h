@@ -161,7 +161,7 @@ class SceneRenderer {
   void SummarizeLight(const FollowedLight& followed);
   /// Brings light, animations, exposure and camera look to a frame.
   Result<void> Follow(CameraImageView image, const Transform<Camera, Marker>& camera_from_marker,
-                      UtcTime time, const FollowedLight& followed, bool shows_marker);
+                      UtcTime time, FollowedLight followed, bool shows_marker);
   Result<void> UpdateCameraLook(CameraImageView image,
                                 const Transform<Camera, Marker>& camera_from_marker);
   void UpdateExposureScale(CameraImageView image,

@@ -72,7 +72,9 @@ std::string CommandText(const ReplayArguments& arguments) {
   if (given.max_patches) text += " --light-patches " + std::to_string(*given.max_patches);
   if (given.as_described) text += " --light stated";
   if (given.fitted) text += " --light fitted";
-  if (light.changes == session::LightChangeMode::kHold) text += " --light-changes hold";
+  if (light.changes != session::LightOptions{}.changes) {
+    text += std::string(" --light-changes ") + session::NameOf(light.changes);
+  }
   if (!light.match_look) text += " --look clean";
   if (light.hands_in_front) text += " --hands";
   if (given.sun_to_sky) text += fmt::format(" --sun-to-sky {}", *given.sun_to_sky);

@@ -119,6 +119,14 @@ void AddLeaf(const scene::LeafDescription& leaf, const fs::path& folder, std::st
   }
 }
 
+void AddCloudLayer(const clouds::CloudLayer& layer, std::string* text) {
+  *text += fmt::format("\n[[cloud_layer]]\nkind = \"{}\"\n", clouds::NameOf(layer.kind));
+  *text += fmt::format("cover = {}\noptical_depth = {}\nbase_m = {}\nthickness_m = {}\n",
+                       layer.cover, layer.optical_depth, layer.base_m, layer.thickness_m);
+  *text += fmt::format("cell_m = {}\nwind_m_s = {}\nwind_from_deg = {}\nseed = {}\n", layer.cell_m,
+                       layer.wind_m_s, layer.wind_from_deg, layer.seed);
+}
+
 }  // namespace
 
 std::string SceneToml(const scene::SceneDescription& scene, UtcTime start, const fs::path& folder) {
@@ -126,9 +134,9 @@ std::string SceneToml(const scene::SceneDescription& scene, UtcTime start, const
   std::string text = fmt::format("time = {}\ncloudiness = \"{}\"\n", start.ToString(),
                                  CloudinessName(scene.cloudiness));
   if (scene.turbidity) text += fmt::format("turbidity = {}\n", *scene.turbidity);
-  if (scene.exposure_scale) {
-    text += fmt::format("exposure_gain = [{}, {}, {}]\n", scene.exposure_scale->r,
-                        scene.exposure_scale->g, scene.exposure_scale->b);
+  if (scene.camera.exposure_scale) {
+    text += fmt::format("exposure_gain = [{}, {}, {}]\n", scene.camera.exposure_scale->r,
+                        scene.camera.exposure_scale->g, scene.camera.exposure_scale->b);
   }
   if (!scene.camera.response.empty()) {
     text += fmt::format("camera_response = {}\n", Beside(folder, scene.camera.response));
@@ -153,6 +161,7 @@ std::string SceneToml(const scene::SceneDescription& scene, UtcTime start, const
   for (const auto& phantom : scene.phantoms) AddModel("phantom", phantom, folder, &text);
   for (const auto& object : scene.objects) AddModel("object", object, folder, &text);
   for (const auto& leaf : scene.leaves) AddLeaf(leaf, folder, &text);
+  for (const auto& layer : scene.clouds.layers) AddCloudLayer(layer, &text);
   return text;
 }
 

@@ -56,13 +56,16 @@ void AddLightChangeOption(CLI::App& command, const std::string& of,
       .add_option_function<std::string>(
           "--light-changes",
           [&options](const std::string& mode) {
-            options.changes = mode == "hold" ? session::LightChangeMode::kHold
-                                             : session::LightChangeMode::kFollow;
+            for (const auto known :
+                 {session::LightChangeMode::kFollow, session::LightChangeMode::kHold,
+                  session::LightChangeMode::kStated}) {
+              if (mode == session::NameOf(known)) options.changes = known;
+            }
           },
           "follow: sun and sky are estimated in each frame, for passing clouds; hold: one light "
           "for " +
-              of)
-      ->check(CLI::IsMember({"follow", "hold"}))
+              of + "; stated: that of the scene's layers of clouds at each moment")
+      ->check(CLI::IsMember({"follow", "hold", "stated"}))
       ->default_str("follow");
 }
 

@@ -37,6 +37,8 @@ const char* LightSourceName(compositor::FrameLight::Source source) {
       return "print";
     case compositor::FrameLight::Source::kTotalOnly:
       return "total only";
+    case compositor::FrameLight::Source::kStated:
+      return "layers";
     case compositor::FrameLight::Source::kHeld:
       return "held";
   }

@@ -25,7 +25,7 @@ struct LightRow {
 LightRow LightRowOf(std::int64_t frame_index, std::int64_t timestamp_ns,
                     const session::LightSummary& light);
 
-/// Names of the sources in files: "surfaces", "print", "total only", "held".
+/// Names of the sources in files: "surfaces", "print", "total only", "layers", "held".
 const char* LightSourceName(compositor::FrameLight::Source source);
 
 /// Adds rows for the frames between those of `rows` that have none: their light is interpolated

@@ -12,8 +12,10 @@
 #include "app/replay/estimate_light.h"
 #include "app/replay/time_lapse/time_lapse.h"
 #include "compositor/light/light_solver.h"
+#include "compositor/photometry/sky_fit.h"
 #include "session/leaf_materials.h"
 #include "session/scene_light.h"
+#include "sky/clouds/cloud_shadow.h"
 
 namespace pleinair::app {
 
@@ -47,12 +49,23 @@ bool LeavesChange(const ReplayState& state) {
                              [](const auto& leaf) { return !leaf.stages.empty(); });
 }
 
+/// The light of a time-lapse. Layers of clouds rule it: the sky between them is the described one,
+/// because the film's may have been measured under such clouds.
+session::LightingRequest RequestOf(const ReplayState& state) {
+  session::LightingRequest request =
+      state.renderer().MakeLightingRequest(state.scene().place_time.start);
+  if (state.scene().clouds.layers.empty()) return request;
+  request.skies = {.source = compositor::DescribedSky(state.scene())};
+  request.clouds = clouds::MakeFields(state.scene().clouds.layers);
+  request.clouds_rule = true;
+  return request;
+}
+
 /// The scene with the leaves of `time`, whose light is traced for each picture.
 Result<std::unique_ptr<DayRenderer>> RendererWithLeavesOf(ReplayState& state, UtcTime time) {
   std::vector<compositor::PlacedModel> placed = state.renderer().placed();
   PLEINAIR_RETURN_IF_ERROR(session::ReplaceByLeaves(state.scene().leaves, time, &placed));
-  session::LightingRequest request =
-      state.renderer().MakeLightingRequest(state.scene().place_time.start);
+  session::LightingRequest request = RequestOf(state);
   request.coefficients = nullptr;
   PLEINAIR_ASSIGN_OR_RETURN(
       request.solver,
@@ -75,8 +88,7 @@ Result<RendererAt> RenderersOf(ReplayState& state) {
       return day->get();
     };
   }
-  session::LightingRequest request =
-      state.renderer().MakeLightingRequest(state.scene().place_time.start);
+  session::LightingRequest request = RequestOf(state);
   request.coefficients = TraceCoefficients(state);
   PLEINAIR_ASSIGN_OR_RETURN(
       *day, DayRenderer::Create(state.pipeline->output_camera(), state.renderer().placed(),

@@ -168,6 +168,7 @@ void Warn(ReplayState& state) {
                         {state.pipeline->output_camera(), state.report.path},
                         state.renderer().phantom_rays()));
   add(DrawingWarnings(state.renderer().samples()));
+  add(CloudWarnings(state.scene()));
   if (state.scene().objects.empty()) {
     warnings.emplace_back("The scene has no virtual object: the frames are unchanged.");
   } else if (AssumesGround(state.scene())) {

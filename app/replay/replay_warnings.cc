@@ -74,6 +74,7 @@ bool AreToldApart(const std::vector<LightRow>& rows) {
   const auto is = [](Source source) {
     return [source](const LightRow& row) { return row.source == source; };
   };
+  if (std::any_of(rows.begin(), rows.end(), is(Source::kStated))) return true;
   return std::any_of(rows.begin(), rows.end(), is(Source::kSurfaces)) &&
          std::none_of(rows.begin(), rows.end(), is(Source::kTotalOnly));
 }
@@ -197,6 +198,16 @@ std::vector<std::string> DrawingWarnings(std::optional<int> samples) {
       fmt::format("The renderer gives {} of {} samples a pixel: edges of virtual objects are "
                   "coarser than the camera's own. 'pleinair doctor' names the renderer.",
                   *samples, kWanted)};
+}
+
+std::vector<std::string> CloudWarnings(const scene::SceneDescription& scene) {
+  if (!scene.clouds.ignored_word || *scene.clouds.ignored_word == scene::Cloudiness::kClear) {
+    return {};
+  }
+  return {
+      fmt::format("cloudiness = \"{}\" is not used: the layers of clouds of the scene are its "
+                  "clouds, and the sky between them is clear.",
+                  CloudinessName(*scene.clouds.ignored_word))};
 }
 
 std::vector<std::string> LightWarnings(const session::LightSummary& summary,

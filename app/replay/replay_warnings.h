@@ -24,6 +24,9 @@ std::vector<std::string> ModelWarnings(const std::vector<compositor::PlacedModel
 /// nothing if no object is drawn.
 std::vector<std::string> DrawingWarnings(std::optional<int> samples);
 
+/// The word for the sky that layers of clouds replace.
+std::vector<std::string> CloudWarnings(const scene::SceneDescription& scene);
+
 /// Warnings about the light estimate: far from the scene description, implausible for the frames,
 /// or missing. `rows`: the light of all frames.
 std::vector<std::string> LightWarnings(const session::LightSummary& summary,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -26,6 +27,15 @@ struct SunTransmittanceMap {
   bool HoldsFor(Vec3 direction) const;
   /// Rows that map (x, y, z, 1) to texture coordinates. The map must not be empty.
   std::array<std::array<float, 4>, 2> TextureFromMarker() const;
+};
+
+/// What takes a part of the sun besides the scene's own geometry. Null or empty: nothing.
+struct SunShade {
+  /// Unmodelled objects, towards the virtual objects. On real surfaces the images show it.
+  std::shared_ptr<const SunTransmittanceMap> trees = nullptr;
+  /// Layers of clouds, on real and virtual surfaces alike. Relative to the sun's strength in
+  /// LightMix, and above 1 where the clouds let more through than that.
+  std::shared_ptr<const SunTransmittanceMap> clouds = nullptr;
 };
 
 /// A point on a real surface that no phantom shades.

@@ -3,7 +3,6 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
-#include <utility>
 
 #include "compositor/light/environment_map.h"
 #include "compositor/passes/glm_vectors.h"
@@ -16,7 +15,8 @@ Result<FrameDaylight> FrameDaylight::Create() {
       gl::GlTexture::Create2DArray(GL_RGB32F, EnvironmentMap::kWidth, EnvironmentMap::kHeight,
                                    EnvironmentMap::kLevels));
   light.environment_.SetWrap(GL_REPEAT);
-  PLEINAIR_RETURN_IF_ERROR(light.Upload({}));
+  PLEINAIR_RETURN_IF_ERROR(light.trees_.Upload());
+  PLEINAIR_RETURN_IF_ERROR(light.clouds_.Upload());
   return light;
 }
 
@@ -42,22 +42,39 @@ void FrameDaylight::SetEnvironment(const sky::SkyModel& day, const Mat3& marker_
   }
 }
 
-Result<void> FrameDaylight::SetTransmittance(
-    std::shared_ptr<const SunTransmittanceMap> transmittance) {
-  if (transmittance == transmittance_) return {};
-  PLEINAIR_RETURN_IF_ERROR(Upload(transmittance ? *transmittance : SunTransmittanceMap{}));
-  transmittance_ = std::move(transmittance);
+Result<void> FrameDaylight::Shade::Set(const std::shared_ptr<const SunTransmittanceMap>& other) {
+  if (other == map) return {};
+  map = other;
+  return Upload();
+}
+
+Result<void> FrameDaylight::Shade::Upload() {
+  const int width = Shades() ? map->width : 1, height = Shades() ? map->height : 1;
+  if (texture.width() != width || texture.height() != height) {
+    PLEINAIR_ASSIGN_OR_RETURN(texture, gl::GlTexture::Create2D(GL_R16F, width, height));
+  }
+  constexpr float kAll = 1.0F;
+  texture.Upload(GL_RED, GL_FLOAT, Shades() ? map->share.data() : &kAll);
   return {};
 }
 
-Result<void> FrameDaylight::Upload(const SunTransmittanceMap& transmittance) {
-  const bool empty = transmittance.share.empty();
-  PLEINAIR_ASSIGN_OR_RETURN(transmittance_texture_,
-                            gl::GlTexture::Create2D(GL_R16F, empty ? 1 : transmittance.width,
-                                                    empty ? 1 : transmittance.height));
-  constexpr float kAll = 1.0F;
-  transmittance_texture_.Upload(GL_RED, GL_FLOAT, empty ? &kAll : transmittance.share.data());
-  return {};
+std::array<glm::vec4, 2> FrameDaylight::Shade::TextureFromMarker() const {
+  std::array<glm::vec4, 2> rows{};
+  if (!Shades()) return rows;
+  const auto from = map->TextureFromMarker();
+  for (int i = 0; i < 2; ++i) rows[i] = {from[i][0], from[i][1], from[i][2], from[i][3]};
+  return rows;
+}
+
+Result<void> FrameDaylight::SetShade(const SunShade& shade) {
+  PLEINAIR_RETURN_IF_ERROR(trees_.Set(shade.trees));
+  return clouds_.Set(shade.clouds);
+}
+
+void FrameDaylight::BindShade() const {
+  constexpr int kTreeUnit = 5, kCloudUnit = 22;
+  trees_.texture.Bind(kTreeUnit);
+  clouds_.texture.Bind(kCloudUnit);
 }
 
 void FrameDaylight::SetUniforms(FrameUniforms* frame) const {
@@ -68,11 +85,7 @@ void FrameDaylight::SetUniforms(FrameUniforms* frame) const {
   const LinearRgb level =
       (level_sun_ * mix_.sun + level_sky_ * mix_.sky + none) / (level_sun_ + level_sky_ + none);
   frame->environment = {ToGlm(mix_.sky), ToGlm(level), up_};
-  if (!IsShadedByUnmodelled()) return;
-  const auto rows = transmittance_->TextureFromMarker();
-  for (int i = 0; i < 2; ++i) {
-    frame->texture_from_marker[i] = {rows[i][0], rows[i][1], rows[i][2], rows[i][3]};
-  }
+  frame->shade_from_marker = {trees_.TextureFromMarker(), clouds_.TextureFromMarker()};
 }
 
 }  // namespace pleinair::compositor

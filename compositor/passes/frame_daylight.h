@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <glm/glm.hpp>
 #include <memory>
 
@@ -32,9 +33,8 @@ class FrameDaylight {
                       LinearRgb from_below);
   /// Sets the strengths of sun and sky over those of SetDay().
   void SetMix(const LightMix& mix) { mix_ = mix; }
-  /// Sets the sun transmittance of unmodelled geometry; null or empty: there is none. Errors
-  /// (system): no memory.
-  Result<void> SetTransmittance(std::shared_ptr<const SunTransmittanceMap> transmittance);
+  /// Errors (system): no memory.
+  Result<void> SetShade(const SunShade& shade);
 
   const LightMix& mix() const { return mix_; }
   /// False for a sun below the horizon or behind clouds: it lights nothing and casts no shadow.
@@ -42,26 +42,36 @@ class FrameDaylight {
   Vec3 to_sun() const { return to_sun_; }  ///< Unit vector.
   /// The sun of the current mix on a surface that faces it.
   LinearRgb SunNow() const { return sun_normal_lux_ * mix_.sun; }
-  bool IsShadedByUnmodelled() const { return transmittance_ && !transmittance_->share.empty(); }
+  /// True if trees or clouds take a part of the sun that differs from place to place.
+  bool IsShaded() const { return trees_.Shades() || clouds_.Shades(); }
   const AerialFog& air() const { return air_; }
   const gl::GlTexture& environment() const { return environment_; }
-  /// One texel with all of the sun where there is no unmodelled shade.
-  const gl::GlTexture& transmittance() const { return transmittance_texture_; }
+  /// For shaders/sun_transmittance_map.glsl.
+  void BindShade() const;
 
-  /// Sets sun, environment and the place of the transmittance.
+  /// Sets sun, environment and the places of the maps of transmittance.
   void SetUniforms(FrameUniforms* frame) const;
 
  private:
-  Result<void> Upload(const SunTransmittanceMap& transmittance);
+  /// A map of transmittance; one texel with all of the sun where nothing takes any.
+  struct Shade {
+    std::shared_ptr<const SunTransmittanceMap> map;
+    gl::GlTexture texture;
 
-  gl::GlTexture environment_, transmittance_texture_;
+    bool Shades() const { return map && !map->share.empty(); }
+    Result<void> Set(const std::shared_ptr<const SunTransmittanceMap>& other);
+    Result<void> Upload();
+    std::array<glm::vec4, 2> TextureFromMarker() const;
+  };
+
+  gl::GlTexture environment_;
   AerialFog air_;
   Vec3 to_sun_;
   LinearRgb sun_normal_lux_;
   glm::vec3 up_{0.0F, 0.0F, 1.0F};
   LinearRgb level_sun_, level_sky_;  // Illuminance of level ground.
   LightMix mix_;
-  std::shared_ptr<const SunTransmittanceMap> transmittance_;
+  Shade trees_, clouds_;
 };
 
 }  // namespace pleinair::compositor

@@ -58,8 +58,10 @@ void FrameUniforms::SetEnvironment(const gl::GlProgram& program) const {
 }
 
 void FrameUniforms::SetSunTransmittance(const gl::GlProgram& program) const {
-  program.Set("u_sun_transmittance_s", texture_from_marker[0]);
-  program.Set("u_sun_transmittance_t", texture_from_marker[1]);
+  program.Set("u_sun_transmittance_s", shade_from_marker[0][0]);
+  program.Set("u_sun_transmittance_t", shade_from_marker[0][1]);
+  program.Set("u_cloud_transmittance_s", shade_from_marker[1][0]);
+  program.Set("u_cloud_transmittance_t", shade_from_marker[1][1]);
 }
 
 }  // namespace pleinair::compositor

@@ -31,7 +31,8 @@ struct FrameUniforms {
   glm::vec3 sun_normal_lux{0.0F};
   PixelPlace place;
   EnvironmentMix environment;
-  std::array<glm::vec4, 2> texture_from_marker{};  ///< For the map of SunTransmittanceMap.
+  /// For the maps of SunShade: trees, clouds.
+  std::array<std::array<glm::vec4, 2>, 2> shade_from_marker{};
   FogSplits fog;
   /// The airlight in front of the farthest real surface is noticeable.
   bool needs_airlight = false;

@@ -103,8 +103,8 @@ void ShadowRatioPass::Draw(const RenderTargets& targets, const SceneSurfaces& su
   const gl::GlProgram& sun = programs.phantoms[Change::kSun];
   sun.Set("u_assumes_unmodelled_shadows", options.assume_unmodelled ? 1.0F : 0.0F);
   sun.Set("u_margin_half_m", static_cast<float>(options.margin_size_m / 2));
-  frame.SetSunTransmittance(sun);
   for (const Change change : {Change::kSun, Change::kSunlitSky}) {
+    frame.SetSunTransmittance(programs.phantoms[change]);
     Shade(frame, programs.phantoms[change], change, frame.needs_airlight, within);
   }
   if (frame.linear_needs_airlight) draw_linear(linear_program_with_airlight_, true);

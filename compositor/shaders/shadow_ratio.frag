@@ -22,9 +22,9 @@ layout(location = 0) out vec4 out_ratio;
 layout(binding = 0) uniform usampler2D u_visible;  // From affected_pixels.frag.
 layout(binding = 19) uniform usampler2D u_weights;
 
-#ifdef SUN_MAY_CHANGE
 #include "compositor/shaders/sun_transmittance_map.glsl"
 
+#ifdef SUN_MAY_CHANGE
 uniform float u_assumes_unmodelled_shadows;  // 1; 0 where only phantoms cast shadows.
 // Half of the white margin's edge. There the albedo is not that of the ground.
 uniform float u_margin_half_m;
@@ -66,6 +66,7 @@ struct Change {
 Change ChangeOf(VisibleSurface surface, int component) {
   FogAir air = AirUpTo(distance(u_eye_m, surface.position_m));
   vec3 sun = max(dot(surface.normal, u_to_sun), 0.0) * u_sun_normal_lux;
+  sun *= CloudTransmittance(surface.position_m);
   float visibility_phantoms = ShadowVisibility(0, surface.position_m, surface.flat_normal,
                                                surface.step_x, surface.step_y);
   // Permutations, not tests: Mesa's software renderer executes an `if` regardless of its condition.

@@ -293,7 +293,7 @@ vec3 ColorOf(VisibleSurface surface, MaterialRecord record
   float visibility = ShadowVisibility(1, surface.position_m + lift,
                                       curved ? normal : surface.flat_normal, surface.step_x,
                                       surface.step_y);
-  visibility *= SunTransmittance(surface.position_m);
+  visibility *= SunTransmittance(surface.position_m) * CloudTransmittance(surface.position_m);
   vec3 sun_lux = u_sun_normal_lux * visibility;
   vec3 sun = sun_lux * n_dot_l;
 #endif

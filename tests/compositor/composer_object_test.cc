@@ -327,7 +327,7 @@ TEST(Composer, FindsTheWholePenumbraWithoutAskingAllOfTheSunsWindow) {
   sunny->cell_m = 1.0;
   sunny->width = sunny->height = 1;
   sunny->share = {1.0F};
-  ASSERT_TRUE(composer->SetSunTransmittance(sunny));
+  ASSERT_TRUE(composer->SetSunTransmittance({.trees = sunny}));
   const auto whole = compose();
   ASSERT_TRUE(footprint.has_value());
   ASSERT_TRUE(whole.has_value());

@@ -93,6 +93,59 @@ TEST(Composer, DarkensNothingThatATreeShadesAlready) {
   EXPECT_LT(SeenAt(unasked, shaded), 0.4 * shade);
 }
 
+TEST(Composer, FadesObjectAndShadowUnderTheShadowOfACloud) {
+  const auto solver = LightSolver::Create({kGround, kCube}, {.rays_per_vertex = 64});
+  const auto composer = Composer::Create(kCamera, {kGround, kCube}, {});
+  ASSERT_TRUE(solver);
+  ASSERT_TRUE(composer);
+  const SouthernSun light;
+  ASSERT_TRUE((*composer)->SetLight((*solver)->Solve(light, Mat3{}), light, Mat3{},
+                                    (*solver)->RadianceFromBelow(light, Mat3{})));
+  (*composer)->AssumeUnmodelledShadows(false);
+  struct Seen {
+    double top, shadow, open;
+  };
+  const RgbImage picture = EvenPicture(150);
+  const auto seen = [&] {
+    const auto composed = (*composer)->Compose(picture.view(), kFromAbove,
+                                               {kExposureScale, kExposureScale, kExposureScale});
+    EXPECT_TRUE(composed);
+    return Seen{SeenAt(*composed, {0, 0.05, 0.3}), SeenAt(*composed, {0, 0.32, 0}),
+                SeenAt(*composed, {0.6, 0.3, 0})};
+  };
+  const Seen sunny = seen();
+  // The sun of the frame is a quarter; the clouds leave twice that in the west, none in the east.
+  constexpr double kMean = 0.25;
+  auto clouds = std::make_shared<SunTransmittanceMap>();
+  const double half = std::numbers::sqrt2 / 2;
+  clouds->to_sun = light.ToSun().xyz;
+  clouds->across_x = {1, 0, 0};
+  clouds->across_y = {0, half, half};
+  clouds->cell_m = 5.0;
+  clouds->width = clouds->height = 1;
+  const auto under = [&](float share) {
+    auto map = std::make_shared<SunTransmittanceMap>(*clouds);
+    map->share = {share};
+    EXPECT_TRUE((*composer)->SetSunTransmittance({.clouds = map}));
+    return seen();
+  };
+  ASSERT_TRUE(
+      (*composer)->SetLightMix((*solver)->Solve(light, Mat3{}), {.sun = {kMean, kMean, kMean}}));
+  const auto expected_top = [&](double sun) {
+    return kExposureScale * 0.5 * (kSkyLux + sun * kSunLux * half) / std::numbers::pi;
+  };
+  const Seen half_sun = under(2.0F), no_sun = under(0.0F);
+  EXPECT_NEAR(half_sun.top, expected_top(0.5), 0.01);
+  EXPECT_NEAR(no_sun.top, expected_top(0.0), 0.01);
+  // The film's ground stays as it is; only the object's shadow on it fades.
+  EXPECT_NEAR(half_sun.open, sunny.open, 0.01);
+  EXPECT_NEAR(no_sun.open, sunny.open, 0.01);
+  const double before = LinearFromSrgb8()[150];
+  EXPECT_LT(sunny.shadow, half_sun.shadow);
+  EXPECT_NEAR(half_sun.shadow / before, kSkyLux / (kSkyLux + 0.5 * kSunLux * half), 0.08);
+  EXPECT_GT(no_sun.shadow / before, 0.75);
+}
+
 TEST(Composer, LeavesTheObjectTheSunlightThatComesThroughATree) {
   const auto solver = LightSolver::Create({kGround, kCube}, {.rays_per_vertex = 64});
   const auto composer = Composer::Create(kCamera, {kGround, kCube}, {});
@@ -119,12 +172,13 @@ TEST(Composer, LeavesTheObjectTheSunlightThatComesThroughATree) {
   };
   const auto open = seen_on_top();
   EXPECT_NEAR(open.first, open.second, 0.01);
-  ASSERT_TRUE((*composer)->SetSunTransmittance(std::make_shared<const SunTransmittanceMap>(
-      BuildSunTransmittanceMap(to_sun, surface_samples))));
+  ASSERT_TRUE(
+      (*composer)->SetSunTransmittance({.trees = std::make_shared<const SunTransmittanceMap>(
+                                            BuildSunTransmittanceMap(to_sun, surface_samples))}));
   const auto [shaded, sunlit] = seen_on_top();
   EXPECT_NEAR(sunlit, open.second, 0.01);
   EXPECT_NEAR(shaded / sunlit, kSkyLux / (kSkyLux + kSunLux * std::numbers::sqrt2 / 2), 0.03);
-  ASSERT_TRUE((*composer)->SetSunTransmittance(nullptr));
+  ASSERT_TRUE((*composer)->SetSunTransmittance({}));
   EXPECT_EQ(seen_on_top(), open);
 }
 

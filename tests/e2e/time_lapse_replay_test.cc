@@ -2,10 +2,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <string>
 
 #include "tests/e2e/run_program.h"
+#include "tests/temporary_folder.h"
 
 namespace pleinair::e2e {
 namespace {
@@ -49,6 +54,68 @@ TEST(TimeLapseReplay, DrawsTheLeavesOfEachDate) {
   }
   EXPECT_GT(count, 300);
   EXPECT_GT(red, 1.1 * green) << count;
+}
+
+TEST(TimeLapseReplay, LetsTheShadowsOfCloudsTravelOverGroundAndObject) {
+  const TemporaryFolder folder;
+  MakeShortRecording(folder / "site", 1, true);
+  const std::string scene = ReadFile(folder / "site/scene.toml");
+  WriteFile(folder / "site/clouds.toml",
+            scene +
+                "[[cloud_layer]]\nkind = \"cumulus\"\noptical_depth = 40\ncell_m = 400\n"
+                "wind_m_s = 20\nwind_from_deg = 270\n");
+  const RunResult run =
+      RunPleinair({"replay", folder / "site", "--scene", folder / "site/clouds.toml", "-o",
+                   folder / "out", "--no-video", "--light", "stated", "--size", "160x120",
+                   "--frames", "--time-lapse", "13:05..13:07+02:00", "--every", "10s"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  double darkest = 255.0, brightest = 0.0;
+  for (int i = 0; i <= 12; ++i) {
+    const cv::Mat picture = cv::imread(
+        folder / "out/timelapse" /
+        (i < 10 ? "000" + std::to_string(i) + ".png" : "00" + std::to_string(i) + ".png"));
+    ASSERT_FALSE(picture.empty()) << i;
+    const double ground = cv::mean(picture.rowRange(100, 120))[1];
+    darkest = std::min(darkest, ground);
+    brightest = std::max(brightest, ground);
+  }
+  EXPECT_GT(brightest, 1.3 * darkest);
+}
+
+TEST(StatedLight, IsThatOfTheLayersOfClouds) {
+  const TemporaryFolder folder;
+  MakeShortRecording(folder / "site", 2, true);
+  const std::string scene = ReadFile(folder / "site/scene.toml");
+  WriteFile(folder / "site/clouds.toml",
+            tests::Replaced(scene, "\"clear\"", "\"overcast\"") +
+                "[[cloud_layer]]\nkind = \"slab\"\noptical_depth = 0.5\n");
+  const auto light = [&](const char* file, const char* changes) {
+    const RunResult run = RunPleinair({"replay", folder / "site", "--scene", folder / "site" / file,
+                                       "-o", folder / "out", "--no-video", "--light", "stated",
+                                       "--size", "160x120", "--light-changes", changes});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return nlohmann::json::parse(ReadFile(folder / "out/report.json"));
+  };
+  const auto clear = light("scene.toml", "hold"), stated = light("clouds.toml", "stated");
+  EXPECT_EQ(stated["light"]["changes"]["mode"], "stated");
+  EXPECT_EQ(stated["light"]["changes"]["frames_by_source"], (nlohmann::json{{"layers", 2}}));
+  const double rise = std::sin(stated["light"]["sun_elevation_deg"].get<double>() * M_PI / 180.0);
+  EXPECT_NEAR(stated["light"]["sun_normal_lux"].get<double>() /
+                  clear["light"]["sun_normal_lux"].get<double>(),
+              std::exp(-0.5 / rise), 0.01);
+  EXPECT_GT(stated["light"]["sky_horizontal_lux"].get<double>(),
+            1.2 * clear["light"]["sky_horizontal_lux"].get<double>());
+  EXPECT_THAT(stated["warnings"].dump(), HasSubstr("layers of clouds of the scene are its clouds"));
+}
+
+TEST(StatedLight, NeedsLayersOfClouds) {
+  const TemporaryFolder folder;
+  MakeShortRecording(folder / "site", 1, true);
+  const RunResult run =
+      RunPleinair({"replay", folder / "site", "-o", folder / "out", "--light-changes", "stated"});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("has no layers of clouds for --light-changes stated"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "out"));
 }
 
 TEST(TimeLapseReplay, RefusesADayFromAFrameThatCannotShowIt) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "scene/scene_description.h"
+#include "scene/scene_facts.h"
 #include "tests/temporary_folder.h"
 
 namespace pleinair::scene {
@@ -72,7 +73,7 @@ TEST(SceneToml, SaysEverythingThatTheCompositorMayKnow) {
   EXPECT_EQ(scene->place_time.height_m, 220);
   EXPECT_EQ(scene->cloudiness, Cloudiness::kHazy);
   EXPECT_EQ(scene->turbidity, 3.5);
-  EXPECT_EQ(scene->exposure_scale, (LinearRgb{0.03, 0.035, 0.04}));
+  EXPECT_EQ(scene->camera.exposure_scale, (LinearRgb{0.03, 0.035, 0.04}));
   EXPECT_EQ(scene->marker.id, 7);
   EXPECT_DOUBLE_EQ(scene->marker.size_m, 0.48);
   EXPECT_DOUBLE_EQ(scene->marker.board_size_m, 0.6);
@@ -110,7 +111,7 @@ TEST(SceneToml, LeavesOutWhatHasADefault) {
   EXPECT_TRUE(scene->marker.upright);
   EXPECT_EQ(scene->cloudiness, Cloudiness::kClear);
   EXPECT_FALSE(scene->turbidity);
-  EXPECT_FALSE(scene->exposure_scale);
+  EXPECT_FALSE(scene->camera.exposure_scale);
   EXPECT_TRUE(scene->objects.empty());
 }
 
@@ -180,6 +181,52 @@ TEST(SceneToml, ValuesMustBeInRange) {
               HasSubstr("is for objects"));
   EXPECT_THAT(with("\"bottom centre\"", "\"top\""), HasSubstr("known are file and bottom centre"));
   EXPECT_THAT(with("\"Hazy\"", "\"grey\""), HasSubstr("known are clear, hazy"));
+}
+
+TEST(SceneToml, HasLayersOfCloudsInPlaceOfTheWord) {
+  const std::string text = std::string(kScene) + R"(
+[[cloud_layer]]
+kind = "cumulus"
+cover = 0.4
+wind_m_s = 8
+wind_from_deg = -110
+seed = -7
+[[cloud_layer]]
+kind = "cirrus"
+)";
+  const auto scene = CompleteScene(ParseSceneToml(text, "scene.toml").value(), "scene.toml");
+  ASSERT_TRUE(scene) << scene.error().Message();
+  ASSERT_EQ(scene->clouds.layers.size(), 2U);
+  const clouds::CloudLayer& cumulus = scene->clouds.layers[0];
+  EXPECT_EQ(cumulus.cover, 0.4);
+  EXPECT_EQ(cumulus.optical_depth, 20.0);
+  EXPECT_EQ(cumulus.wind_from_deg, -110.0);
+  EXPECT_EQ(cumulus.seed, -7);
+  EXPECT_EQ(scene->clouds.layers[1].base_m, 8000.0);
+  EXPECT_EQ(scene->cloudiness, Cloudiness::kClear);
+  EXPECT_EQ(scene->clouds.ignored_word, Cloudiness::kHazy);
+}
+
+TEST(SceneToml, LayersOfCloudsMustBePossible) {
+  const auto with = [](const std::string& layer) {
+    return Refusal(std::string(kScene) + "[[cloud_layer]]\n" + layer);
+  };
+  const std::string cumulus = "kind = \"cumulus\"\n";
+  EXPECT_EQ(with(cumulus), "no error");
+  EXPECT_THAT(with("cover = 0.5\n"), HasSubstr("has no kind"));
+  EXPECT_THAT(with("kind = \"fog\"\n"), HasSubstr("choose among cumulus"));
+  EXPECT_THAT(with(cumulus + "height_m = 3\n"), HasSubstr("\"height_m\" is unknown"));
+  EXPECT_THAT(with(cumulus + "cover = 1.5\n"),
+              AllOf(HasSubstr("cover 1.5 is impossible"), HasSubstr("scene.toml:")));
+  EXPECT_THAT(with("kind = \"slab\"\ncover = 0.5\n"), HasSubstr("impossible for a slab"));
+  EXPECT_THAT(with(cumulus + "optical_depth = 201\n"), HasSubstr("from 0 to 200"));
+  EXPECT_THAT(with(cumulus + "base_m = 49\n"), HasSubstr("base_m 49 is impossible"));
+  EXPECT_THAT(with(cumulus + "cell_m = inf\n"), HasSubstr("is not finite"));
+  EXPECT_THAT(with(cumulus + "wind_m_s = \"8\"\n"), HasSubstr("is not a number"));
+  EXPECT_THAT(with(cumulus + "seed = 1.5\n"), HasSubstr("is not a whole number"));
+  const std::string next = "[[cloud_layer]]\n" + cumulus;
+  EXPECT_EQ(with(cumulus + next + next + next), "no error");
+  EXPECT_THAT(with(cumulus + next + next + next + next), HasSubstr("keep 4 at most"));
 }
 
 TEST(SceneToml, WhatIsMissingIsNamed) {

@@ -38,7 +38,7 @@ class BendingScene {
     scene_.place_time = {50.0875, 14.4213, 200.0, UtcTime::Parse("2025-09-14T11:05:00Z").value()};
     scene_.marker.size_m = 0.2;
     scene_.marker.board_size_m = 0.25;
-    scene_.exposure_scale = LinearRgb{3e-5, 3e-5, 3e-5};
+    scene_.camera.exposure_scale = LinearRgb{3e-5, 3e-5, 3e-5};
     scene_.phantoms.emplace_back().surface = scene::GroundSurface(3.0, 0.0, false);
     scene::ModelReference& object = scene_.objects.emplace_back();
     object.file = folder_.Write("tube.gltf", tube.gltf);

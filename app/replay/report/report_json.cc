@@ -204,7 +204,7 @@ Json ChangesJson(const ReplayedLight& light) {
   if (suns.empty()) return {};
   const double usual = Median(suns);
   const auto [least, most] = std::minmax_element(suns.begin(), suns.end());
-  return {{"mode", light.mode == session::LightChangeMode::kFollow ? "follow" : "hold"},
+  return {{"mode", session::NameOf(light.mode)},
           {"least_sun", IfKnown(usual > 0.0, *least / usual)},
           {"most_sun", IfKnown(usual > 0.0, *most / usual)},
           {"frames_by_source", sources}};

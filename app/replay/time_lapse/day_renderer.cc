@@ -7,23 +7,53 @@
 #include <numbers>
 #include <utility>
 
+#include "base/parallel_for.h"
+#include "base/quantile.h"
 #include "base/srgb.h"
 #include "compositor/light/sky_table.h"
 #include "scene/sun_over_place.h"
+#include "session/clouds/cloud_shadow.h"
+#include "session/clouds/clouded_day.h"
 #include "session/scene_animation.h"
 #include "shadows/shadow_uniforms.h"
+#include "sky/clouds/cloud_sky.h"
 
 namespace pleinair::app {
 namespace {
 
-// Albedo of the land beyond the phantoms, as in the light solver.
-constexpr double kLandAlbedo = 0.2;
 // White paper on the ground has this display-linear value in the brightest moment.
 constexpr double kWhite = 0.8, kPaper = 0.8;
 // Exponent of the visible dimming: the fifth root of the light's decrease.
 constexpr double kDimming = 0.2;
 // Below this illuminance, lux, a daylight camera shows black.
 constexpr double kDark_lux = 0.05;
+
+/// Share of the sun that the sunniest tenth of the layers' area has. The wind does not change it.
+double SunInGaps(const clouds::CloudFields& fields, Direction<World> to_sun) {
+  constexpr int kSide = 20;
+  std::vector<double> shares;
+  shares.reserve(static_cast<std::size_t>(kSide) * kSide);
+  for (int i = 0; i < kSide * kSide; ++i) {
+    const Vec3 point{((i % kSide + 0.5) / kSide - 0.5) * clouds::kCoverSquare_m,
+                     ((i / kSide + 0.5) / kSide - 0.5) * clouds::kCoverSquare_m, 0.0};
+    shares.push_back(clouds::PointSunTransmittance(fields, point, to_sun, 0.0));
+  }
+  return Quantile(std::move(shares), 0.9);
+}
+
+/// Land of a reflectance beyond the phantoms: level, in the plane of the marker.
+LinearRgb LandSeen(const session::BakedLighting& light, Vec3 eye_m, Direction<World> along,
+                   double seconds) {
+  // Farther land has no shadows of its own: they are too flat to be seen apart.
+  constexpr double kFarthest_m = 10'000.0;
+  const Vec3 to_sun = light.daylight.ToSun().xyz;
+  const double distance = std::min(std::max(eye_m.z, 0.0) / -along.xyz.z, kFarthest_m);
+  const double share = clouds::PointSunTransmittance(
+      light.request.clouds, eye_m + along.xyz * distance, {to_sun}, seconds);
+  const LinearRgb lux = light.daylight.SkyHorizontalIrradiance() +
+                        light.daylight.SunNormalIrradiance() * (std::max(0.0, to_sun.z) * share);
+  return lux * (compositor::kLandAlbedo / std::numbers::pi);
+}
 
 }  // namespace
 
@@ -62,7 +92,15 @@ Result<std::unique_ptr<DayRenderer>> DayRenderer::Create(
 
 LinearRgb DayRenderer::LevelLight(UtcTime time) const {
   const sky::SunPosition sun = scene::SunOver(request_.place, time);
-  const auto model = request_.skies.source->ForSun(sun.ToSun(), sun.distance_au);
+  auto model = session::ClearSkyOf(request_, sun);
+  if (!request_.clouds.empty()) {
+    model = session::WithScaledSky(std::move(model), request_.skies.scale);
+    const clouds::AreaLight area =
+        clouds::ComputeAreaLight(request_.clouds, *model, compositor::kLandAlbedo, 0.0);
+    return area.sky_horizontal +
+           model->SunNormalIrradiance() *
+               (std::max(0.0, sun.ToSun().xyz.z) * SunInGaps(request_.clouds, sun.ToSun()));
+  }
   return model->SkyHorizontalIrradiance() * request_.skies.scale +
          model->SunNormalIrradiance() * std::max(0.0, sun.ToSun().xyz.z);
 }
@@ -80,28 +118,53 @@ Result<RgbImage> DayRenderer::Render(const Transform<Camera, Marker>& camera_fro
   }
   PLEINAIR_RETURN_IF_ERROR(
       composer_->SetLight(light.meshes, light.daylight, light.marker_from_world, light.from_below));
+  PLEINAIR_RETURN_IF_ERROR(ShadeByClouds(light));
   session::PlayAnimations(placed_, request_.time, time, composer_.get());
   return composer_->Compose(Far(light, camera_from_marker, exposure_scale).view(),
                             camera_from_marker, exposure_scale);
+}
+
+Result<void> DayRenderer::ShadeByClouds(const session::BakedLighting& light) {
+  if (!light.clouded) return {};
+  const session::CloudShadow shadow = session::MakeCloudShadow(
+      light.request.clouds, session::BoxOf(light.meshes, light.marker_from_world),
+      light.daylight.ToSun(), light.marker_from_world,
+      light.request.CloudSeconds(light.request.time));
+  PLEINAIR_RETURN_IF_ERROR(composer_->SetSunTransmittance({.clouds = shadow.map}));
+  return composer_->SetLightMix(light.meshes, {.sun = {shadow.sun, shadow.sun, shadow.sun}});
 }
 
 /// The background of the scene: sky and land.
 RgbImage DayRenderer::Far(const session::BakedLighting& light,
                           const Transform<Camera, Marker>& camera_from_marker,
                           LinearRgb exposure_scale) const {
-  const compositor::SkyTable sky(light.daylight, light.marker_from_world, kLandAlbedo);
-  const Mat3 marker_from_camera = camera_from_marker.rotation.Transposed();
-  RgbImage picture(width_, height_, 3);
-  auto ray = rays_.begin();
-  for (int y = 0; y < height_; ++y) {
-    std::uint8_t* at = picture.view().row(y);
-    for (int x = 0; x < width_; ++x, ++ray) {
-      const auto radiance = sky.Radiance(marker_from_camera * *ray);
-      *at++ = Srgb8FromLinear(radiance[0] * exposure_scale.r);
-      *at++ = Srgb8FromLinear(radiance[1] * exposure_scale.g);
-      *at++ = Srgb8FromLinear(radiance[2] * exposure_scale.b);
+  const compositor::SkyTable sky(light.daylight, light.marker_from_world, compositor::kLandAlbedo);
+  const auto marker_from_camera = camera_from_marker.Inverse();
+  const Mat3 world_from_marker = light.marker_from_world.Transposed();
+  const Vec3 eye_m = world_from_marker * marker_from_camera.translation_m;
+  const double seconds = light.request.CloudSeconds(light.request.time);
+  const auto radiance = [&](Vec3 ray) -> LinearRgb {
+    const Vec3 along = marker_from_camera.rotation * ray;
+    if (!light.clouded) {
+      const auto seen = sky.Radiance(along);
+      return {seen[0], seen[1], seen[2]};
     }
-  }
+    const Direction<World> world{world_from_marker * along};
+    return world.xyz.z > 0.0 ? light.clouded->RadianceSeen(world)
+                             : LandSeen(light, eye_m, world, seconds);
+  };
+  RgbImage picture(width_, height_, 3);
+  ParallelFor(static_cast<std::size_t>(height_), 0, [&](std::size_t row) {
+    std::uint8_t* at = picture.view().row(static_cast<int>(row));
+    for (int x = 0; x < width_; ++x) {
+      const LinearRgb shown =
+          radiance(rays_[row * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)]) *
+          exposure_scale;
+      *at++ = Srgb8FromLinear(shown.r);
+      *at++ = Srgb8FromLinear(shown.g);
+      *at++ = Srgb8FromLinear(shown.b);
+    }
+  });
   return picture;
 }
 

@@ -28,7 +28,8 @@ class DayRenderer {
                                                      const compositor::ComposerOptions& options,
                                                      bool phantoms_cast = true);
 
-  /// Illuminance of sun and sky on level ground, lux.
+  /// Illuminance of sun and sky on level ground, lux. Under layers of clouds: that of the sunniest
+  /// tenth of their area, so that pictures are dark where a cloud shades the scene.
   LinearRgb LevelLight(UtcTime time) const;
 
   /// Renders the image of a camera with this exposure scale (display-linear value per cd/m²). The
@@ -38,6 +39,7 @@ class DayRenderer {
 
  private:
   DayRenderer(const CameraModel& camera, session::LightingRequest request);
+  Result<void> ShadeByClouds(const session::BakedLighting& light);
   RgbImage Far(const session::BakedLighting& light,
                const Transform<Camera, Marker>& camera_from_marker, LinearRgb exposure_scale) const;
 

@@ -13,9 +13,9 @@ namespace pleinair::compositor {
 /// Sun and sky of one frame, relative to the light that was estimated for the recording.
 struct FrameLight {
   /// What told sun and sky apart: surfaces in sun and shade; the colors of surfaces in one light;
-  /// nothing, so that both follow the total brightness; or no surface at all, so that the light is
-  /// interpolated in time.
-  enum class Source { kSurfaces, kColors, kTotalOnly, kHeld };
+  /// nothing, so that both follow the total brightness; no surface at all, so that the light is
+  /// interpolated in time; or the description alone.
+  enum class Source { kSurfaces, kColors, kTotalOnly, kHeld, kStated };
   std::int64_t frame_index = 0;
   std::int64_t timestamp_ns = 0;  ///< Since the recording's start.
   /// Factors on the display-linear light of sun and sky, exposure and white balance included.

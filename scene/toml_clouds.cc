@@ -1,0 +1,62 @@
+#include "scene/toml_clouds.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace pleinair::scene {
+namespace {
+
+constexpr const char* kCloudTable = "cloud_layer";
+
+/// The error of a description at its place in the file.
+template <typename T>
+Result<T> LocatedAt(const std::string& where, Result<T> result) {
+  if (result || !result.error().where.empty()) return result;
+  Error error = std::move(result).error();
+  error.where = where;
+  return tl::make_unexpected(std::move(error));
+}
+
+Result<clouds::CloudLayer> ReadCloudLayer(const TomlTable& table) {
+  PLEINAIR_RETURN_IF_ERROR(
+      table.AllowOnly({"kind", "cover", "optical_depth", "base_m", "thickness_m", "cell_m",
+                       "wind_m_s", "wind_from_deg", "seed"}));
+  clouds::CloudLayerFacts facts;
+  PLEINAIR_ASSIGN_OR_RETURN(const std::optional<std::string> kind, table.Text("kind"));
+  if (!kind) return table.FailHere("has no kind", "add for example kind = \"cumulus\"");
+  PLEINAIR_ASSIGN_OR_RETURN(facts.kind,
+                            LocatedAt(table.WhereOf("kind"), clouds::ParseCloudKind(*kind)));
+  for (const clouds::CloudNumber& number : clouds::kCloudNumbers) {
+    PLEINAIR_ASSIGN_OR_RETURN(facts.*number.fact, table.Number(number.key));
+    if (!(facts.*number.fact)) continue;
+    PLEINAIR_RETURN_IF_ERROR(LocatedAt(table.WhereOf(number.key),
+                                       clouds::CheckCloudNumber(number, *(facts.*number.fact))));
+  }
+  if (const toml::node* seed = table.Find("seed")) {
+    facts.seed = seed->value_exact<std::int64_t>();
+    if (!facts.seed) return table.Fail("seed", "is not a whole number", "write it like 7");
+  }
+  return LocatedAt(table.WhereHere(), clouds::MakeCloudLayer(facts));
+}
+
+}  // namespace
+
+Result<std::vector<clouds::CloudLayer>> ReadCloudLayers(const TomlTable& scene) {
+  PLEINAIR_ASSIGN_OR_RETURN(const std::vector<TomlTable> tables, scene.Tables(kCloudTable));
+  if (tables.size() > clouds::kMaxCloudLayers) {
+    return InputError(tables[clouds::kMaxCloudLayers].WhereHere(),
+                      "is one [[cloud_layer]] too many",
+                      "keep " + std::to_string(clouds::kMaxCloudLayers) + " at most");
+  }
+  std::vector<clouds::CloudLayer> layers;
+  layers.reserve(tables.size());
+  for (const TomlTable& table : tables) {
+    PLEINAIR_ASSIGN_OR_RETURN(const clouds::CloudLayer layer, ReadCloudLayer(table));
+    layers.push_back(layer);
+  }
+  return layers;
+}
+
+}  // namespace pleinair::scene
