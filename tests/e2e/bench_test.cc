@@ -1,7 +1,8 @@
-// Tests `pleinair bench shadows` as a process.
+// Tests `pleinair bench` as a process.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -98,6 +99,31 @@ TEST(BenchAntialiasing, RefusesWhatItDoesNotKnow) {
   EXPECT_EQ(RunPleinair({"bench", "antialiasing", "--methods", "fxaa"}).exit_code, 2);
   EXPECT_EQ(RunPleinair({"bench", "antialiasing", "--scenes", "forest"}).exit_code, 2);
   EXPECT_EQ(RunPleinair({"bench", "antialiasing", "--size", "0x0"}).exit_code, 2);
+}
+
+TEST(BenchClouds, ComparesFluxesWithPathsOfPhotons) {
+  const RunResult run = RunPleinair({"bench", "clouds", "--quick", "--json"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  int slabs = 0, steps = 0, kinds = 0;
+  for (const json& row : JsonLines(run.out)) {
+    const std::string scene = row.at("case"), method = row.at("method");
+    const double error = row.at("relative_error"), share = row.at("T");
+    EXPECT_LE(row.at("T_direct").get<double>(), share + 1e-9) << scene << method;
+    EXPECT_NEAR(row.at("R").get<double>() + share, 1.0, 1e-6) << scene << method;
+    EXPECT_GT(row.at("reference").get<double>(), 0.0);
+    EXPECT_GE(row.at("ms").get<double>(), 0.0);
+    // 4,000 photons: a standard deviation is 0.008 at most.
+    if (method == "table") {
+      ++slabs;
+      EXPECT_NEAR(share, row.at("reference").get<double>(), 0.03) << scene;
+    } else if (method == "columns") {
+      scene.starts_with("step") ? ++steps : ++kinds;
+      EXPECT_LT(std::abs(error), 0.12) << scene;
+    }
+  }
+  EXPECT_EQ(slabs, 6);
+  EXPECT_EQ(steps, 2);
+  EXPECT_EQ(kinds, 10);
 }
 
 // Refused before the recording is opened.
