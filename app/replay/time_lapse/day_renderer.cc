@@ -34,8 +34,9 @@ double SunInGaps(const clouds::CloudFields& fields, Direction<World> to_sun) {
   std::vector<double> shares;
   shares.reserve(static_cast<std::size_t>(kSide) * kSide);
   for (int i = 0; i < kSide * kSide; ++i) {
-    const Vec3 point{((i % kSide + 0.5) / kSide - 0.5) * clouds::kCoverSquare_m,
-                     ((i / kSide + 0.5) / kSide - 0.5) * clouds::kCoverSquare_m, 0.0};
+    const int column = i % kSide, row = i / kSide;
+    const Vec3 point{((column + 0.5) / kSide - 0.5) * clouds::kCoverSquare_m,
+                     ((row + 0.5) / kSide - 0.5) * clouds::kCoverSquare_m, 0.0};
     shares.push_back(clouds::PointSunTransmittance(fields, point, to_sun, 0.0));
   }
   return Quantile(std::move(shares), 0.9);
