@@ -3,57 +3,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
-#include "base/vector.h"
+#include "compositor/picture/edge_profile.h"
+#include "compositor/picture/edge_stripe.h"
 
 namespace pleinair::compositor {
 namespace {
 
 constexpr int kStripesPerSide = 48;
-constexpr double kNarrowestBandPx = 5.0;
-constexpr double kMaxEdgeDistance_px =
-    14.0;  // Distance from an edge within which a blur of a third of it is fully visible.
 constexpr int kMinPixels = 40;    // Per edge of a side.
 constexpr double kBadFit = 0.12;  // RMS of a side's fit, relative to the step from black to white.
 constexpr double kMinBlur_px = 0.2;
-
-double Gauss(double t) { return std::exp(-t * t / 2) / std::sqrt(2 * std::numbers::pi); }
-double GaussIntegral(double t) { return 0.5 * std::erfc(-t / std::numbers::sqrt2); }
-
-/// A pixel near an edge: distance across the edge, towards the white, and brightness.
-struct EdgePixel {
-  double distance_px, value;
-};
-
-/// An edge's brightness, and its derivatives by distance and by blur.
-struct EdgeProfile {
-  double value = 0.0, slope = 0.0, by_blur = 0.0;
-};
-
-EdgeProfile GaussianEdge(double distance_px, double blur_px) {
-  const double t = distance_px / blur_px, slope = Gauss(t) / blur_px;
-  return {GaussIntegral(t), slope, -slope * t};
-}
-
-/// The edge after a disc of this diameter and a Gaussian. The disc's chords are integrated by the
-/// Gauss–Chebyshev rule of the second kind.
-EdgeProfile DefocusedEdge(double distance_px, double circle_px, double blur_px) {
-  constexpr double kMinCircle_px = 0.05;
-  if (circle_px < kMinCircle_px) return GaussianEdge(distance_px, blur_px);
-  constexpr int kNodes = 16;
-  EdgeProfile sum;
-  for (int k = 1; k <= kNodes; ++k) {
-    const double angle = k * std::numbers::pi / (kNodes + 1);
-    const double weight = 2.0 / (kNodes + 1) * std::sin(angle) * std::sin(angle);
-    const EdgeProfile edge = GaussianEdge(distance_px - 0.5 * circle_px * std::cos(angle), blur_px);
-    sum.value += weight * edge.value;
-    sum.slope += weight * edge.slope;
-    sum.by_blur += weight * edge.by_blur;
-  }
-  return sum;
-}
 
 /// Least-squares fit of black + (white − black) Φ((d − shift) / blur) by Gauss–Newton with damped
 /// steps (Levenberg 1944). With a circle of confusion, Φ is blurred by its disc. Returns nothing if
@@ -103,78 +64,19 @@ std::optional<double> FitBlur(const std::vector<EdgePixel>& pixels, double circl
   return blur;
 }
 
-/// Adds the pixels of a strip across a side, with brightness 0 in the black and 1 in the white.
-/// `along`: −1 at one end of the side, 1 at the other.
-void AddStripe(const MarkerInImage& marker, int side, double along,
-               std::vector<EdgePixel>* pixels) {
-  const double c = std::array{1.0, 0.0, -1.0, 0.0}[side];
-  const double s = std::array{0.0, 1.0, 0.0, -1.0}[side];
-  const double half = marker.marker().size_m / 2;
-  const double band_m = std::min(marker.white_m(), marker.marker().black_band_m);
-  const auto at = [&](double x, double y) {
-    return marker.PixelOf({c * x - s * y, s * x + c * y});
-  };
-  const auto edge = at(along * half, half), beside = at((along + 0.01) * half, half);
-  const auto outer = at(along * half, half + band_m / 2);
-  const auto inner = at(along * half, half - band_m / 2);
-  if (!edge || !beside || !outer || !inner) return;
-  const Vec2 step = *beside - *edge;
-  if (!(Norm(step) > 0.0)) return;
-  const Vec2 tangent = step * (1.0 / Norm(step));
-  Vec2 normal{-tangent.y, tangent.x};
-  const Vec2 outwards = *outer - *inner;
-  if (normal.x * outwards.x + normal.y * outwards.y < 0.0) normal = normal * -1.0;
-  const double band_px = std::fabs(normal.x * outwards.x + normal.y * outwards.y);
-  if (band_px < kNarrowestBandPx) return;
-  const double reach = std::min(0.9 * band_px, kMaxEdgeDistance_px);
-  // The levels on either side, far from the edge, then every pixel with its centre in a strip one
-  // pixel wide.
-  double white = 0.0, black = 0.0;
-  int whites = 0, blacks = 0;
-  std::vector<EdgePixel> strip;
-  const int x0 = static_cast<int>(std::lround(edge->x)),
-            y0 = static_cast<int>(std::lround(edge->y));
-  const int r = static_cast<int>(std::ceil(reach)) + 1;
-  for (int y = y0 - r; y <= y0 + r; ++y) {
-    for (int x = x0 - r; x <= x0 + r; ++x) {
-      if (!marker.IsInside(x, y)) continue;
-      const Vec2 offset = Vec2{static_cast<double>(x), static_cast<double>(y)} - *edge;
-      if (std::fabs(offset.x * tangent.x + offset.y * tangent.y) > 0.5) continue;
-      const double distance = offset.x * normal.x + offset.y * normal.y;
-      if (std::fabs(distance) > reach) continue;
-      if (marker.IsClipped(x, y, 2)) return;
-      const double value = marker.Grey(x, y);
-      strip.push_back({distance, value});
-      if (distance > 0.7 * reach) {
-        white += value;
-        ++whites;
-      }
-      if (distance < -0.7 * reach) {
-        black += value;
-        ++blacks;
-      }
-    }
-  }
-  if (whites == 0 || blacks == 0) return;
-  white /= whites;
-  black /= blacks;
-  // Paper reflects twenty times as much as ink. A hand or a shadow edge has a lower contrast.
-  if (white < 2.0 * black || white - black < 0.02) return;
-  for (const EdgePixel& p : strip) {
-    pixels->push_back({p.distance_px, (p.value - black) / (white - black)});
-  }
-}
-
 }  // namespace
 
 std::vector<double> EstimateEdgeBlur(const MarkerInImage& marker,
                                      const std::array<double, 4>& circles_px) {
   std::vector<double> blurs;
+  EdgeStripe stripe;
   for (int side = 0; side < 4; ++side) {
     std::vector<EdgePixel> pixels;
     for (int i = 0; i < kStripesPerSide; ++i) {
       // Away from the corners, where two edges meet.
-      AddStripe(marker, side, 0.8 * (2.0 * (i + 0.5) / kStripesPerSide - 1.0), &pixels);
+      const double along = 0.8 * (2.0 * (i + 0.5) / kStripesPerSide - 1.0);
+      if (!ReadEdgeStripe(marker, side, along, {}, &stripe)) continue;
+      pixels.insert(pixels.end(), stripe.pixels.begin(), stripe.pixels.end());
     }
     if (static_cast<int>(pixels.size()) < kMinPixels) continue;
     if (const auto blur = FitBlur(pixels, circles_px[side])) blurs.push_back(*blur);
