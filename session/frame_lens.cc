@@ -3,12 +3,24 @@
 #include <algorithm>
 #include <cstddef>
 #include <numbers>
+#include <vector>
+
+#include "compositor/lens/focus_course.h"
 
 namespace pleinair::session {
 
 const char* NameOf(DefocusSource source) {
-  if (source == DefocusSource::kOff) return "off";
-  return source == DefocusSource::kStated ? "stated" : "metadata";
+  switch (source) {
+    case DefocusSource::kOff:
+      return "off";
+    case DefocusSource::kStated:
+      return "stated";
+    case DefocusSource::kMetadata:
+      return "metadata";
+    case DefocusSource::kMeasured:
+      break;
+  }
+  return "measured";
 }
 
 Result<FrameLens> FrameLens::Create(const scene::SceneDescription& scene,
@@ -16,6 +28,10 @@ Result<FrameLens> FrameLens::Create(const scene::SceneDescription& scene,
   FrameLens lens;
   if (options.mode == DefocusMode::kOff) return lens;
   if (options.mode == DefocusMode::kAuto && !match_look) return lens;
+  if (options.mode == DefocusMode::kMeasured) {
+    lens.may_be_measured_ = true;
+    return lens;
+  }
   scene::LensDescription stated = scene.camera.lens.value_or(scene::LensDescription());
   if (options.focus_dioptres) stated.focus_dioptres = {*options.focus_dioptres};
   if (options.aperture_m) stated.aperture_m = options.aperture_m;
@@ -37,12 +53,36 @@ Result<FrameLens> FrameLens::Create(const scene::SceneDescription& scene,
       stated.blade_rotation_deg = scene.camera.recorded_lens->blade_rotation_deg;
     }
   }
+  lens.lens_ = stated;
   if (!stated.IsComplete()) {
     lens.source_ = DefocusSource::kOff;
-    return lens;
+    lens.may_be_measured_ = true;
   }
-  lens.lens_ = stated;
   return lens;
+}
+
+compositor::KnownLens FrameLens::Known() const {
+  compositor::KnownLens known;
+  known.aperture_m = lens_.aperture_m;
+  // A focus that changes from frame to frame is no number that a fit could hold.
+  if (lens_.focus_dioptres.size() == 1) known.focus_dioptres = lens_.focus_dioptres.front();
+  return known;
+}
+
+void FrameLens::UseMeasured(const compositor::FocusFit& fit, const std::vector<FrameTime>& frames) {
+  if (!fit.is_measured()) return;
+  source_ = DefocusSource::kMeasured;
+  lens_.aperture_m = fit.aperture_m;
+  lens_.focus_dioptres = {fit.focus_dioptres};
+  if (fit.changes.empty() || frames.empty()) return;
+  constexpr double kPerNanosecond = 1e-9;
+  lens_.focus_dioptres.assign(static_cast<std::size_t>(frames.back().frame_index) + 1,
+                              fit.focus_dioptres);
+  for (const FrameTime& frame : frames) {
+    const double time_s = static_cast<double>(frame.timestamp_ns) * kPerNanosecond;
+    lens_.focus_dioptres[static_cast<std::size_t>(frame.frame_index)] =
+        compositor::FocusAtTime(fit.changes, time_s);
+  }
 }
 
 std::optional<compositor::ThinLens> FrameLens::Of(std::int64_t frame_index) const {

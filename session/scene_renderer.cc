@@ -289,6 +289,12 @@ void SceneRenderer::SummarizeLight(const FollowedLight& followed) {
   summary_.measured.sun_to_sky = sky > 0.0 ? sun / sky : 0.0;
 }
 
+void SceneRenderer::UseMeasuredLens(const compositor::FocusFit& fit,
+                                    const std::vector<FrameTime>& frames) {
+  matched_.lens.UseMeasured(fit, frames);
+  summary_.camera.defocus = matched_.lens.source();
+}
+
 void SceneRenderer::UseLensOf(std::int64_t frame_index) {
   summary_.camera.lens = matched_.lens.Of(frame_index);
   if (composer_) composer_->SetLens(summary_.camera.lens, summary_.camera.lens_places);

@@ -103,6 +103,10 @@ class SceneRenderer {
   /// of the light.
   Result<void> Edit(const SceneEdit& edit);
 
+  /// The lens of the frames.
+  const FrameLens& lens() const { return matched_.lens; }
+  /// As FrameLens::UseMeasured(), before the first frame is rendered.
+  void UseMeasuredLens(const compositor::FocusFit& fit, const std::vector<FrameTime>& frames);
   /// Uses the lens of a frame from now on.
   void UseLensOf(std::int64_t frame_index);
 

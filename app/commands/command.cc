@@ -26,6 +26,7 @@ constexpr const char* kExamples =
     "  pleinair film walk.mov\n"
     "  pleinair calibrate --charuco 8x6 photos/ -o camera.json\n"
     "  pleinair response my_recording -o camera.response\n"
+    "  pleinair lens my_recording\n"
     "  pleinair target poster.jpg --width-mm 420 -o poster.target\n"
     "  pleinair model sculpture.glb -o sheet.png\n"
     "  pleinair leaf --chlorophyll 45 --carotenoids 9 -o leaf.png\n"
@@ -103,6 +104,7 @@ int RunCommandLine(int argc, const char* const* argv) {
     AddPathCommand(app, result);
     AddCalibrateCommand(app, result);
     AddResponseCommand(app, result);
+    AddLensCommand(app, result);
     AddSunCommand(app, result);
     AddSkyCommand(app, result);
     AddAccuracyCommand(app, result);

@@ -200,6 +200,11 @@ Result<void> RunLive(const CLI::App& command, const LiveArguments& arguments) {
   PLEINAIR_ASSIGN_OR_RETURN(options.composer.antialiasing,
                             ParseAntialiasing(arguments.antialiasing));
   PLEINAIR_RETURN_IF_ERROR(ParseDefocus(arguments.defocus, &options.light.defocus));
+  if (options.light.defocus.mode == session::DefocusMode::kMeasured) {
+    return InputError("--defocus measured", "takes a whole recording",
+                      "record this camera, run 'pleinair lens' on it, and give what it measures "
+                      "with --focus and --aperture-mm");
+  }
   const scene::SceneDescription scene = options.scene;
   options.shown_elsewhere = !arguments.headless;
   options.lossless = arguments.lossless;

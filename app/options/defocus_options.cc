@@ -29,8 +29,9 @@ void AddDefocusOptions(CLI::App& command, DefocusArguments& arguments) {
   command
       .add_option("--defocus", arguments.mode,
                   "Blur of virtual objects by their distance: auto, by [lens] of scene or "
-                  "recording where there is one (default); off; stated, by scene or options alone")
-      ->check(CLI::IsMember({"auto", "off", "stated"}))
+                  "recording, else measured on the marker (default); off; stated, by scene or "
+                  "options alone; measured, by the frames alone")
+      ->check(CLI::IsMember({"auto", "off", "stated", "measured"}))
       ->type_name("MODE");
   command
       .add_option("--focus", arguments.focus,
@@ -51,15 +52,18 @@ void AddDefocusOptions(CLI::App& command, DefocusArguments& arguments) {
 
 Result<void> ParseDefocus(const DefocusArguments& arguments, session::DefocusOptions* defocus) {
   using session::DefocusMode;
-  defocus->mode = arguments.mode == "off"      ? DefocusMode::kOff
-                  : arguments.mode == "stated" ? DefocusMode::kStated
-                                               : DefocusMode::kAuto;
+  defocus->mode = arguments.mode == "off"        ? DefocusMode::kOff
+                  : arguments.mode == "stated"   ? DefocusMode::kStated
+                  : arguments.mode == "measured" ? DefocusMode::kMeasured
+                                                 : DefocusMode::kAuto;
   const auto has_no_effect = [&](const char* option) {
-    return InputError(option, "has no effect with --defocus off", "leave out one of them");
+    return InputError(option, "has no effect with --defocus " + arguments.mode,
+                      "leave out one of them");
   };
   const bool is_off = defocus->mode == DefocusMode::kOff;
+  const bool ignores_stated = is_off || defocus->mode == DefocusMode::kMeasured;
   if (!arguments.focus.empty()) {
-    if (is_off) return has_no_effect("--focus");
+    if (ignores_stated) return has_no_effect("--focus");
     const std::optional<double> focus_m = files::ParseNumber(arguments.focus);
     const bool is_infinite = arguments.focus == "infinity";
     if (!is_infinite && !(focus_m && *focus_m > 0.0 && std::isfinite(*focus_m))) {
@@ -69,7 +73,7 @@ Result<void> ParseDefocus(const DefocusArguments& arguments, session::DefocusOpt
     defocus->focus_dioptres = is_infinite ? 0.0 : 1.0 / *focus_m;
   }
   if (arguments.aperture_mm) {
-    if (is_off) return has_no_effect("--aperture-mm");
+    if (ignores_stated) return has_no_effect("--aperture-mm");
     if (!(*arguments.aperture_mm > 0.0) || !std::isfinite(*arguments.aperture_mm)) {
       return InputError("--aperture-mm", "is not greater than zero",
                         "write the diameter of the entrance pupil in millimetres");

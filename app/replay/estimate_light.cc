@@ -1,9 +1,12 @@
 #include "app/replay/estimate_light.h"
 
+#include <string>
 #include <utility>
 
+#include "app/replay/replay_warnings.h"
 #include "app/terminal/pass_bar.h"
 #include "app/terminal/progress_bar.h"
+#include "session/lens_measurement.h"
 #include "session/recording_passes.h"
 
 namespace pleinair::app {
@@ -14,6 +17,26 @@ Result<void> EstimateLight(ReplayState& state) {
   PassBar bar("Estimating light", state.report.call.recording);
   return session::EstimateLight(*state.pipeline, std::move(recording),
                                 {bar.Progress(), &state.times});
+}
+
+Result<void> MeasureLens(ReplayState& state) {
+  const session::FrameLens& lens = state.renderer().lens();
+  if (!lens.MayBeMeasured() || !state.renderer().DrawsObjects() || state.report.path.empty()) {
+    return {};
+  }
+  PLEINAIR_ASSIGN_OR_RETURN(devices::Recording recording, state.OpenRecording());
+  PassBar bar("Measuring the lens", state.report.call.recording);
+  PLEINAIR_ASSIGN_OR_RETURN(state.report.film.lens, state.times.Measure("measure lens", [&] {
+    return session::MeasureLens(*state.pipeline, lens.Known(), std::move(recording),
+                                {bar.Progress(), nullptr});
+  }));
+  const compositor::FocusFit& fit = state.report.film.lens->fit;
+  state.renderer().UseMeasuredLens(fit, state.pipeline->tracks().frame_times());
+  const bool is_asked_for = state.options.light.defocus.mode == session::DefocusMode::kMeasured;
+  for (std::string& sentence : LensWarnings(fit, is_asked_for)) {
+    state.report.warnings.push_back(std::move(sentence));
+  }
+  return {};
 }
 
 std::shared_ptr<const compositor::DaylightCoefficients> TraceCoefficients(ReplayState& state) {

@@ -10,6 +10,10 @@ namespace pleinair::app {
 /// Estimates heading, sun and sky from some frames.
 Result<void> EstimateLight(ReplayState& state);
 
+/// Measures focus and aperture on the marker, where they are neither stated nor recorded and
+/// objects are to be drawn. A failure to measure is a warning if it was asked for.
+Result<void> MeasureLens(ReplayState& state);
+
 /// Computes the light of the first frame before compositing, with its own progress bar.
 Result<void> TraceLight(ReplayState& state);
 

@@ -186,6 +186,9 @@ Result<void> WriteReports(ReplayState& state) {
     report.warnings.push_back(CouldNotKeepLight(state.options.light.cache));
   }
   if (report.light) {
+    for (std::string& sentence : BlurWarnings(report.light->camera)) {
+      report.warnings.push_back(std::move(sentence));
+    }
     for (std::string& sentence : LightWarnings(*report.light, report.light_changes.rows)) {
       report.warnings.push_back(std::move(sentence));
     }
@@ -223,6 +226,7 @@ Result<void> Run(ReplayState& state) {
   Warn(state);
   PLEINAIR_RETURN_IF_ERROR(CheckInterrupt(name));
   PLEINAIR_RETURN_IF_ERROR(EstimateLight(state));
+  PLEINAIR_RETURN_IF_ERROR(MeasureLens(state));
   PLEINAIR_RETURN_IF_ERROR(TraceLight(state));
   PLEINAIR_RETURN_IF_ERROR(ComposeFrames(state));
   PLEINAIR_RETURN_IF_ERROR(DrawDay(state));

@@ -12,6 +12,7 @@
 
 #include "app/replay/light_contradiction.h"
 #include "app/replay/trajectory_warnings.h"
+#include "compositor/lens/disc_kernel.h"
 #include "compositor/passes/render_targets.h"
 
 namespace pleinair::app {
@@ -208,6 +209,33 @@ std::vector<std::string> CloudWarnings(const scene::SceneDescription& scene) {
       fmt::format("cloudiness = \"{}\" is not used: the layers of clouds of the scene are its "
                   "clouds, and the sky between them is clear.",
                   CloudinessName(*scene.clouds.ignored_word))};
+}
+
+std::vector<std::string> LensWarnings(const compositor::FocusFit& fit, bool is_asked_for) {
+  std::vector<std::string> warnings;
+  if (!fit.is_measured() && is_asked_for) {
+    warnings.push_back("Focus and aperture could not be measured: " + fit.reason +
+                       ". Nothing is blurred by its distance. Film the marker from near it to "
+                       "twice that distance, or state both with --focus and --aperture-mm.");
+  }
+  if (!fit.changes.empty()) {
+    warnings.emplace_back(
+        "The focus changes during the recording. A calibration holds for one focus only: hold the "
+        "camera's focus, and calibrate at it.");
+  }
+  return warnings;
+}
+
+std::vector<std::string> BlurWarnings(const session::CameraSummary& drawn) {
+  constexpr double kLargest_px = compositor::DiscKernels::kMaxCircle_px;
+  if (!drawn.lens || drawn.lens_places != compositor::kByLayers ||
+      drawn.drawn_lens.largest_circle_px <= kLargest_px) {
+    return {};
+  }
+  return {
+      fmt::format("Circles of confusion of up to {:.0f} pixels are drawn with {:.0f}. Draw them "
+                  "whole with --defocus-method lens:256, or reduce --size.",
+                  drawn.drawn_lens.largest_circle_px, kLargest_px)};
 }
 
 std::vector<std::string> LightWarnings(const session::LightSummary& summary,

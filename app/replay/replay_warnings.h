@@ -27,6 +27,12 @@ std::vector<std::string> DrawingWarnings(std::optional<int> samples);
 /// The word for the sky that layers of clouds replace.
 std::vector<std::string> CloudWarnings(const scene::SceneDescription& scene);
 
+/// Warnings about the measured lens. `is_asked_for`: a failure to measure is one of them.
+std::vector<std::string> LensWarnings(const compositor::FocusFit& fit, bool is_asked_for);
+
+/// Warnings about the limits of drawn depth of field.
+std::vector<std::string> BlurWarnings(const session::CameraSummary& drawn);
+
 /// Warnings about the light estimate: far from the scene description, implausible for the frames,
 /// or missing. `rows`: the light of all frames.
 std::vector<std::string> LightWarnings(const session::LightSummary& summary,

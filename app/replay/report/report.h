@@ -12,6 +12,7 @@
 #include "devices/films/film_curve.h"
 #include "scene/scene_description.h"
 #include "session/anchors.h"
+#include "session/lens_measurement.h"
 #include "session/light_options.h"
 #include "session/light_summary.h"
 #include "session/marker_tracks.h"
@@ -42,6 +43,7 @@ struct ReplayedFilm {
   std::int64_t frames = 0;
   std::optional<std::int64_t> clock_start_ns;  ///< Its start by the camera's own clock.
   compositor::Antialiasing antialiasing;       ///< How the objects' edges are smoothed.
+  std::optional<session::MeasuredLens> lens;   ///< By the marker; nothing: not looked for.
   std::optional<int> samples;  ///< That the renderer gives a pixel; nothing without objects.
 };
 

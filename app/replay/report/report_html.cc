@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "app/lens/lens_text.h"
 #include "base/units.h"
 #include "export/plots/line_plot.h"
 #include "export/plots/page_style.h"
@@ -217,6 +218,25 @@ std::string Light(const ReplayReport& report) {
   return html;
 }
 
+/// The lens that the marker's blur shows; empty where it was not looked for.
+std::string Lens(const ReplayReport& report) {
+  if (!report.film.lens) return "";
+  const compositor::FocusFit& fit = report.film.lens->fit;
+  std::string html = "<h2>Lens</h2>\n<div class=\"cards\">\n";
+  if (fit.is_measured()) {
+    const double q = fit.focus_dioptres;
+    html += Card(q > 0.0 ? fmt::format("{:.3g} m", 1.0 / q) : "infinity",
+                 fmt::format("in focus: {:.3f} ± {:.3f} /m", q, fit.focus_dioptres_error));
+    html += Card(fmt::format("{:.3g} mm ± {:.1f} %", 1e3 * fit.aperture_m,
+                             100.0 * fit.aperture_relative_error),
+                 "diameter of the entrance pupil");
+    html += Card(fmt::format("{:.2f} px", fit.in_focus_blur_px), "blur of what is in focus");
+  } else {
+    html += Card("not measured", fit.reason);
+  }
+  return html + "</div>\n" + ReadingsPlot(*report.film.lens);
+}
+
 }  // namespace
 
 std::string ReportHtml(const ReplayReport& report) {
@@ -272,6 +292,7 @@ std::string ReportHtml(const ReplayReport& report) {
   html += "<h2>Light</h2>\n<div class=\"cards\">\n" + Light(report) + "</div>\n";
   html += report.files.time_lapse;
   if (!report.light_changes.rows.empty()) html += LightPlot(report.light_changes.rows);
+  html += Lens(report);
   if (!report.path.empty()) html += "<h2>Camera trajectory</h2>\n" + Plots(report);
   html +=
       "<h2>Time per stage</h2>\n<table><tr><th>stage</th><th>runs</th><th>median, ms</th>"

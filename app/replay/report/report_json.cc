@@ -151,9 +151,12 @@ Json MixedPixelsOf(const ReplayReport& report) {
 }
 
 /// The lens that the objects are seen through.
-Json LensJson(const session::CameraSummary& drawn) {
+Json LensJson(const session::CameraSummary& drawn,
+              const std::optional<session::MeasuredLens>& measured) {
   const bool is_drawn = drawn.lens.has_value();
   const bool is_by_layers = is_drawn && drawn.lens_places == compositor::kByLayers;
+  const bool is_measured = drawn.defocus == session::DefocusSource::kMeasured && measured;
+  const compositor::FocusFit fit = measured ? measured->fit : compositor::FocusFit();
   const double focus = is_drawn ? drawn.lens->focus_dioptres : 0.0;
   return {
       {"defocus", session::NameOf(drawn.defocus)},
@@ -162,8 +165,8 @@ Json LensJson(const session::CameraSummary& drawn) {
                                 : Json("lens:" + std::to_string(drawn.lens_places))},
       {"focus_m", IfKnown(focus > 0.0, 1.0 / focus)},
       {"aperture_mm", IfKnown(is_drawn, is_drawn ? 1e3 * drawn.lens->aperture_m : 0.0)},
-      {"focus_dioptres_error", Json()},
-      {"aperture_relative_error", Json()},
+      {"focus_dioptres_error", IfKnown(is_measured, fit.focus_dioptres_error)},
+      {"aperture_relative_error", IfKnown(is_measured, fit.aperture_relative_error)},
       {"in_focus_blur_px", IfKnown(is_drawn && drawn.look, drawn.look ? drawn.look->blur_px : 0.0)},
       {"largest_blur_px", Rounded(drawn.drawn_lens.largest_circle_px)},
       {"layers", is_by_layers ? Json(drawn.drawn_lens.layers) : Json()},
@@ -337,7 +340,7 @@ std::string ReportJson(const ReplayReport& report) {
   json["antialiasing"] = {{"method", compositor::NameOf(report.film.antialiasing.method)},
                           {"samples", SamplesOf(report.film)},
                           {"mixed_pixels", MixedPixelsOf(report)}};
-  json["lens"] = report.light ? LensJson(report.light->camera) : Json();
+  json["lens"] = report.light ? LensJson(report.light->camera, report.film.lens) : Json();
   json["light"] = report.light ? LightJson(*report.light) : Json();
   if (report.light) json["light"]["changes"] = ChangesJson(report.light_changes);
   json["video_encoder"] =

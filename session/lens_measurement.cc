@@ -1,0 +1,95 @@
+#include "session/lens_measurement.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+#include "base/quantile.h"
+#include "compositor/picture/side_profile.h"
+#include "devices/calibration/response_file.h"
+#include "session/light_frames.h"
+#include "session/scene_marker.h"
+#include "session/scene_renderer.h"
+
+namespace pleinair::session {
+namespace {
+
+constexpr std::size_t kMostFrames = 120;
+
+Result<CameraResponse> CameraResponseOf(Pipeline& pipeline, const devices::Recording& recording) {
+  if (pipeline.renderer().DrawsObjects()) return pipeline.renderer().response();
+  const std::string& stated = pipeline.scene().camera.response;
+  if (stated == kSrgbResponse) return CameraResponse();
+  if (!stated.empty()) return devices::ReadCameraResponse(stated);
+  return devices::ResponseOf(recording.curve);
+}
+
+/// The poses around an observation; nothing where they are too far apart to show its motion.
+std::optional<compositor::MarkerMotion> MotionAt(const std::vector<Observation>& track,
+                                                 std::size_t i) {
+  constexpr double kLongest_s = 0.25, kPerNanosecond = 1e-9;
+  const Observation& before = track[i > 0 ? i - 1 : i];
+  const Observation& after = track[i + 1 < track.size() ? i + 1 : i];
+  const double seconds =
+      static_cast<double>(after.timestamp_ns - before.timestamp_ns) * kPerNanosecond;
+  if (!(seconds > 0.0) || seconds > kLongest_s) return std::nullopt;
+  return compositor::MarkerMotion{before.camera_from_marker, after.camera_from_marker, seconds};
+}
+
+}  // namespace
+
+Result<MeasuredLens> MeasureLens(Pipeline& pipeline, const compositor::KnownLens& known,
+                                 devices::Recording recording, const PassMonitor& monitor) {
+  MeasuredLens measured;
+  measured.fx = recording.camera.fx;
+  const std::optional<MarkerName> marker = pipeline.tracks().ReferenceMarker();
+  if (!marker) {
+    measured.fit.reason = "no frame shows the marker";
+    return measured;
+  }
+  if (pipeline.scene().marker.target) {
+    measured.fit.reason = "an image target has no edges of known contrast";
+    return measured;
+  }
+  PLEINAIR_ASSIGN_OR_RETURN(const CameraResponse response, CameraResponseOf(pipeline, recording));
+  const std::vector<Observation>& track = pipeline.tracks().TrackOf(*marker);
+  const scene::MarkerReflectance reflectance =
+      MarkerReflectanceOf(pipeline.scene().marker, *marker);
+  const std::vector<std::size_t> chosen = EvenlySpread(track.size(), kMostFrames);
+  const auto count = static_cast<std::int64_t>(chosen.size());
+  std::vector<compositor::SideProfile> profiles;
+  profiles.reserve(4 * chosen.size());
+  std::vector<double> exposures_s;
+  exposures_s.reserve(chosen.size());
+  std::int64_t done = 0;
+  for (auto next = chosen.begin(); next != chosen.end();) {
+    const Observation& at = track[*next];
+    recording.frames->SkipTo(at.frame_index);
+    if (monitor.progress) PLEINAIR_RETURN_IF_ERROR(monitor.progress(done, count));
+    PLEINAIR_ASSIGN_OR_RETURN(std::optional<devices::Frame> frame, recording.frames->Next());
+    if (!frame) break;
+    if (frame->index != at.frame_index) continue;
+    const compositor::MarkerInImage in_image(frame->rgb.view(), recording.camera,
+                                             at.camera_from_marker, reflectance, response);
+    for (compositor::SideProfile& side :
+         compositor::ReadSideProfiles(in_image, MotionAt(track, *next))) {
+      side.place.frame_index = at.frame_index;
+      side.place.timestamp_s = static_cast<double>(at.timestamp_ns) * 1e-9;
+      profiles.push_back(std::move(side));
+    }
+    if (frame->settings.exposure_s) exposures_s.push_back(*frame->settings.exposure_s);
+    ++next;
+    ++done;
+  }
+  if (monitor.progress) PLEINAIR_RETURN_IF_ERROR(monitor.progress(done, count));
+  compositor::KnownLens known_of_all = known;
+  if (!exposures_s.empty() && exposures_s.size() == chosen.size()) {
+    known_of_all.exposure_s = Median(std::move(exposures_s));
+  }
+  measured.fit =
+      compositor::MeasureFocus(profiles, recording.camera.fx, known_of_all, &measured.readings);
+  return measured;
+}
+
+}  // namespace pleinair::session

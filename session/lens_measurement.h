@@ -1,0 +1,26 @@
+#pragma once
+
+#include <vector>
+
+#include "base/error.h"
+#include "compositor/lens/focus_fit.h"
+#include "devices/recordings/recording.h"
+#include "session/recording_passes.h"
+
+namespace pleinair::session {
+
+/// What the frames of a recording tell of the lens.
+struct MeasuredLens {
+  double fx = 0.0;  ///< Focal length of the frames, pixels.
+  compositor::FocusFit fit;
+  std::vector<compositor::BlurReading> readings;  ///< One a side of the marker and frame.
+};
+
+/// Measures focus and aperture on the reference marker in at most 120 frames, after
+/// TrackRecording(). The camera's response is that of the renderer, or, of scenes without objects,
+/// that of the scene or of the film. A refusal is no error: `fit` has its reason. Errors: an
+/// unreadable frame or response, those of the monitor.
+Result<MeasuredLens> MeasureLens(Pipeline& pipeline, const compositor::KnownLens& known,
+                                 devices::Recording recording, const PassMonitor& monitor = {});
+
+}  // namespace pleinair::session
