@@ -7,13 +7,12 @@
 #include <cstddef>
 #include <ctime>
 #include <memory>
-#include <numbers>
 #include <utility>
 
 #include "app/bench/antialiasing_scenes.h"
+#include "app/bench/bench_composer.h"
 #include "base/quantile.h"
 #include "compositor/composer.h"
-#include "compositor/light/light_solver.h"
 
 namespace pleinair::app {
 namespace {
@@ -30,35 +29,6 @@ constexpr std::array<AntialiasingBenchMethod, 5> kMethods{{
 }};
 constexpr compositor::Antialiasing kTruth = kMethods.back().antialiasing;
 
-/// An even sky and a sun in the south-west, 37° high.
-class BenchDaylight : public sky::SkyModel {
- public:
-  LinearRgb SkyRadiance(Direction<World> /*from*/) const override {
-    return SkyHorizontalIrradiance() * std::numbers::inv_pi;
-  }
-  LinearRgb SunNormalIrradiance() const override { return {80000, 80000, 80000}; }
-  LinearRgb SkyHorizontalIrradiance() const override { return {20000, 20000, 20000}; }
-  Direction<World> ToSun() const override { return {Normalized({-0.6, -0.53, 0.6})}; }
-};
-
-// White ground in sun and sky has a linear value of 0.9.
-constexpr double kExposureScale = 0.9 * std::numbers::pi / 68000.0;
-
-Result<std::unique_ptr<Composer>> MakeComposer(const CameraModel& camera,
-                                               const std::vector<compositor::PlacedModel>& models,
-                                               const compositor::Antialiasing& antialiasing) {
-  const BenchDaylight daylight;
-  PLEINAIR_ASSIGN_OR_RETURN(const auto solver,
-                            compositor::LightSolver::Create(models, {.rays_per_vertex = 64}));
-  compositor::ComposerOptions options;
-  options.antialiasing = antialiasing;
-  PLEINAIR_ASSIGN_OR_RETURN(auto composer, Composer::Create(camera, models, options));
-  composer->AssumeUnmodelledShadows(false);
-  PLEINAIR_RETURN_IF_ERROR(composer->SetLight(solver->Solve(daylight, Mat3{}), daylight, Mat3{},
-                                              solver->RadianceFromBelow(daylight, Mat3{})));
-  return composer;
-}
-
 /// One scene with its truth.
 class AntialiasingRun {
  public:
@@ -66,14 +36,14 @@ class AntialiasingRun {
                                         const AntialiasingBenchOptions& options) {
     AntialiasingRun run(scene, options);
     const std::vector<compositor::PlacedModel> objects = CoverageModels(run.scene_);
-    PLEINAIR_ASSIGN_OR_RETURN(const auto coverage, MakeComposer(run.camera_, objects, kTruth));
+    PLEINAIR_ASSIGN_OR_RETURN(const auto coverage, MakeBenchComposer(run.camera_, objects, kTruth));
     RgbImage black(run.camera_.width, run.camera_.height, 3);
     std::fill_n(black.data(), black.size(), std::uint8_t{0});
     PLEINAIR_ASSIGN_OR_RETURN(
         const RgbImage covered,
-        coverage->Compose(black.view(), run.scene_.camera_from_marker, run.Exposure()));
+        coverage->Compose(black.view(), run.scene_.camera_from_marker, BenchExposure()));
     PLEINAIR_ASSIGN_OR_RETURN(const auto truth,
-                              MakeComposer(run.camera_, run.scene_.models, kTruth));
+                              MakeBenchComposer(run.camera_, run.scene_.models, kTruth));
     PLEINAIR_ASSIGN_OR_RETURN(run.truth_, run.Creep(*truth));
     run.classes_ = ClassifyPixels(run.truth_.front(), covered);
     return run;
@@ -81,7 +51,7 @@ class AntialiasingRun {
 
   Result<AntialiasingBenchRow> Measure(const AntialiasingBenchMethod& method) {
     PLEINAIR_ASSIGN_OR_RETURN(auto composer,
-                              MakeComposer(camera_, scene_.models, method.antialiasing));
+                              MakeBenchComposer(camera_, scene_.models, method.antialiasing));
     PLEINAIR_ASSIGN_OR_RETURN(const std::vector<RgbImage> frames, Creep(*composer));
     composers_.push_back(std::move(composer));
     AntialiasingBenchRow row;
@@ -101,7 +71,7 @@ class AntialiasingRun {
         const std::clock_t cpu_start = std::clock();
         const auto start = std::chrono::steady_clock::now();
         PLEINAIR_RETURN_IF_ERROR(
-            composers_[i]->Compose(background_.view(), scene_.camera_from_marker, Exposure()));
+            composers_[i]->Compose(background_.view(), scene_.camera_from_marker, BenchExposure()));
         const std::chrono::duration<double, std::milli> wall =
             std::chrono::steady_clock::now() - start;
         times[i][0].push_back(wall.count());
@@ -123,17 +93,11 @@ class AntialiasingRun {
  private:
   AntialiasingRun(const std::string& scene, const AntialiasingBenchOptions& options)
       : options_(options) {
-    camera_.width = options.width;
-    camera_.height = options.height;
-    camera_.fx = camera_.fy = 0.9 * options.width;
-    camera_.cx = 0.5 * (options.width - 1);
-    camera_.cy = 0.5 * (options.height - 1);
+    camera_ = BenchCamera(options.width, options.height);
     scene_ = MakeAntialiasingScene(scene, camera_);
     background_ = RgbImage(camera_.width, camera_.height, 3);
     std::fill_n(background_.data(), background_.size(), scene_.background);
   }
-
-  static LinearRgb Exposure() { return {kExposureScale, kExposureScale, kExposureScale}; }
 
   /// Images of a camera that moves sideways by 0.1 px a frame.
   Result<std::vector<RgbImage>> Creep(Composer& composer) const {
@@ -142,7 +106,7 @@ class AntialiasingRun {
       Transform<Camera, Marker> moved = scene_.camera_from_marker;
       moved.translation_m.x -= frame * scene_.creep_m;
       PLEINAIR_ASSIGN_OR_RETURN(RgbImage image,
-                                composer.Compose(background_.view(), moved, Exposure()));
+                                composer.Compose(background_.view(), moved, BenchExposure()));
       frames.push_back(std::move(image));
     }
     return frames;

@@ -11,6 +11,7 @@
 
 #include "app/bench/antialiasing_command.h"
 #include "app/bench/cloud_command.h"
+#include "app/bench/defocus_command.h"
 #include "app/bench/shadow_bench.h"
 #include "app/bench/shadow_pictures.h"
 #include "app/commands/bench_replay_command.h"
@@ -210,10 +211,13 @@ Result<void> RunBench(BenchOptions& options) {
 
 void AddBenchCommand(CLI::App& app, CommandResult& result) {
   CLI::App* bench = app.add_subcommand(
-      "bench", "For research: measure shadows, antialiasing and clouds, replay with more options");
+      "bench",
+      "For research: measure shadows, antialiasing, depth of field and clouds, replay with more "
+      "options");
   bench->footer(kBenchExamples);
   bench->require_subcommand(1);
   AddAntialiasingBenchCommand(*bench, result);
+  AddDefocusBenchCommand(*bench, result);
   AddCloudBenchCommand(*bench, result);
   AddBenchReplayCommand(*bench, result);
   auto options = std::make_shared<BenchOptions>();

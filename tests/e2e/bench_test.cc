@@ -126,6 +126,31 @@ TEST(BenchClouds, ComparesFluxesWithPathsOfPhotons) {
   EXPECT_EQ(kinds, 10);
 }
 
+TEST(BenchDefocus, ComparesMethodsWithTheTruth) {
+  const RunResult run = RunPleinair({"bench", "defocus", "--quick", "--scenes", "boards",
+                                     "--methods", "layered,gaussian,gather", "--json"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const std::map<std::string, json> rows = RowsByMethod(run.out);
+  ASSERT_EQ(rows.size(), 3U);
+  const auto edge = [&](const char* method) {
+    return rows.at(method).at("edge_rmse").get<double>();
+  };
+  EXPECT_LT(edge("layered"), 0.02);
+  EXPECT_LT(edge("layered"), edge("gaussian"));
+  EXPECT_LT(2.0 * edge("layered"), edge("gather"));
+  for (const char* key :
+       {"scene", "rmse", "halo", "ms", "cpu_ms", "ratio_to_pinhole", "layers", "peels"}) {
+    EXPECT_TRUE(rows.at("layered").contains(key)) << key;
+  }
+  EXPECT_GE(rows.at("layered").at("layers"), 2);
+}
+
+TEST(BenchDefocus, RefusesWhatItDoesNotKnow) {
+  EXPECT_EQ(RunPleinair({"bench", "defocus", "--methods", "lens:0"}).exit_code, 2);
+  EXPECT_EQ(RunPleinair({"bench", "defocus", "--methods", "bokeh"}).exit_code, 2);
+  EXPECT_EQ(RunPleinair({"bench", "defocus", "--scenes", "forest"}).exit_code, 2);
+}
+
 // Refused before the recording is opened.
 TEST(Antialiasing, UnknownMethodsAndUselessSamplesAreRefused) {
   const std::vector<std::vector<std::string>> refused{

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "base/image.h"
+
+namespace pleinair::app {
+
+/// What a run of the benchmark compares, and how long.
+struct DefocusBenchOptions {
+  std::vector<std::string> scenes;   ///< Names; empty: all.
+  std::vector<std::string> methods;  ///< CheckDefocusMethod(); empty: DefaultDefocusMethods().
+  int width = 320, height = 240;
+  int rounds = 5;           ///< All methods in turn; the median counts.
+  int truth_places = 1024;  ///< On the stop, of the reference.
+};
+
+/// Results of one method in one scene.
+struct DefocusBenchRow {
+  std::string scene, method;
+  double rmse = 0.0;              ///< Linear light, where 1 is display white, over the image.
+  double edge_rmse = 0.0;         ///< Within one circle of confusion of a silhouette.
+  double halo = 0.0;              ///< The largest error there.
+  double ms = 0.0;                ///< Time to draw one image.
+  double cpu_ms = 0.0;            ///< Processor time of all threads.
+  double ratio_to_pinhole = 0.0;  ///< Processor time over that of an image without a lens.
+  int layers = 0, peels = 0;      ///< 0: not by layers.
+};
+
+/// layered, gaussian, gather and lens:32.
+std::vector<std::string> DefaultDefocusMethods();
+
+/// layered: as replay. gaussian, gaussian-each: the paper's layers, in cascade and each for itself.
+/// gather: by one depth a pixel. lens:N: through N places, 1…1024. pinhole: without a lens. Error
+/// (input): another name.
+Result<void> CheckDefocusMethod(const std::string& method);
+
+/// What receives the results.
+struct DefocusBenchSink {
+  std::function<void()> advance;  ///< Once a scene for its truth, and after every row.
+  std::function<void(const DefocusBenchRow&)> on_row;
+  /// The truth of a scene and the image of each method, from left to right. May be empty.
+  std::function<Result<void>(const std::string& scene, const RgbImage& sheet)> on_sheet;
+};
+
+/// Runs the benchmark. The truth is drawn through `truth_places` of the stop, with 16 places a
+/// pixel. Errors: no OpenGL 4.5 (system), those of the sink.
+Result<void> RunDefocusBench(const DefocusBenchOptions& options, const DefocusBenchSink& sink);
+
+}  // namespace pleinair::app

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "app/commands/command.h"
+
+namespace CLI {
+class App;
+}
+
+namespace pleinair::app {
+
+/// Adds `pleinair bench defocus`.
+void AddDefocusBenchCommand(CLI::App& bench, CommandResult& result);
+
+}  // namespace pleinair::app
