@@ -1,67 +1,12 @@
-#include <array>
-#include <charconv>
 #include <cmath>
-#include <memory>
 #include <optional>
 #include <string>
 
-#include <libexif/exif-data.h>
-
+#include "devices/films/exif.h"
 #include "devices/films/film_tags.h"
 
 namespace pleinair::devices {
 namespace {
-
-struct ExifDeleter {
-  void operator()(ExifData* data) const { exif_data_unref(data); }
-};
-
-/// Values of one image's EXIF data.
-class Exif {
- public:
-  explicit Exif(ExifData* data) : data_(data), order_(exif_data_get_byte_order(data)) {}
-
-  std::string Text(ExifIfd group, int tag) const {
-    const ExifEntry* entry = Entry(group, tag);
-    if (entry == nullptr || entry->format != EXIF_FORMAT_ASCII) return {};
-    std::string text(reinterpret_cast<const char*>(entry->data), entry->size);
-    text.resize(std::min(text.size(), text.find('\0')));
-    return CleanTag(std::move(text));
-  }
-
-  std::optional<double> Number(ExifIfd group, int tag, unsigned index = 0) const {
-    const ExifEntry* entry = Entry(group, tag);
-    if (entry == nullptr || index >= entry->components) return std::nullopt;
-    const std::size_t bytes = exif_format_get_size(entry->format);
-    if (entry->size < (index + 1) * bytes) return std::nullopt;
-    const unsigned char* at = entry->data + index * bytes;
-    if (entry->format == EXIF_FORMAT_SHORT) return exif_get_short(at, order_);
-    if (entry->format == EXIF_FORMAT_BYTE) return *at;
-    if (entry->format != EXIF_FORMAT_RATIONAL) return std::nullopt;
-    const ExifRational fraction = exif_get_rational(at, order_);
-    if (fraction.denominator == 0) return std::nullopt;
-    return static_cast<double>(fraction.numerator) / fraction.denominator;
-  }
-
-  /// Degrees, minutes and seconds, with the letter of the negative direction.
-  std::optional<double> Angle(int tag, int reference, char negative) const {
-    double angle = 0.0, unit = 1.0;
-    for (unsigned i = 0; i < 3; ++i, unit /= 60.0) {
-      const auto part = Number(EXIF_IFD_GPS, tag, i);
-      if (!part) return std::nullopt;
-      angle += *part * unit;
-    }
-    return Text(EXIF_IFD_GPS, reference).starts_with(negative) ? -angle : angle;
-  }
-
- private:
-  const ExifEntry* Entry(ExifIfd group, int tag) const {
-    return exif_content_get_entry(data_->ifd[group], static_cast<ExifTag>(tag));
-  }
-
-  ExifData* data_;
-  ExifByteOrder order_;
-};
 
 // Tags that libexif 0.6.24 has no names for (Exif 2.31).
 constexpr int kOffsetTimeOriginal = 0x9011;
@@ -91,10 +36,9 @@ std::string TimeOf(std::string time, const std::string& offset) {
 
 FilmTags TagsOfPhoto(std::string_view jpeg) {
   FilmTags tags;
-  const std::unique_ptr<ExifData, ExifDeleter> data(exif_data_new_from_data(
-      reinterpret_cast<const unsigned char*>(jpeg.data()), static_cast<unsigned>(jpeg.size())));
-  if (!data) return tags;
-  const Exif exif(data.get());
+  const std::optional<Exif> read = Exif::In(jpeg);
+  if (!read) return tags;
+  const Exif& exif = *read;
   tags.place = PlaceOf(exif);
   if (tags.place &&
       (std::abs(tags.place->latitude_deg) > 90.0 || std::abs(tags.place->longitude_deg) > 180.0)) {

@@ -11,6 +11,7 @@
 
 #include "devices/calibration/calibration.h"
 #include "devices/calibration/fitted_camera.h"
+#include "devices/films/photo_lens.h"
 #include "devices/images/image_file.h"
 #include "devices/recordings/euroc.h"
 #include "devices/recordings/frame_pack.h"
@@ -166,6 +167,18 @@ Result<void> CheckFocusList(const Recording& recording) {
                     "give one value, or one for each frame");
 }
 
+/// What the images state of their lens completes what the recording's description leaves out.
+void AddLensOfImages(const std::vector<fs::path>& files, Recording* recording) {
+  if (!recording->scene) return;
+  std::optional<scene::LensDescription>& recorded = recording->scene->camera.recorded_lens;
+  if (recorded && recorded->IsComplete()) return;
+  const std::optional<scene::LensDescription> stated = LensOfPhotos(files);
+  if (!stated) return;
+  if (!recorded) recorded.emplace();
+  if (recorded->focus_dioptres.empty()) recorded->focus_dioptres = stated->focus_dioptres;
+  if (!recorded->aperture_m) recorded->aperture_m = stated->aperture_m;
+}
+
 Result<Recording> OpenOwnFolder(const fs::path& folder, const RecordingOptions& options) {
   OwnFolder own{folder, {}, {}};
   PLEINAIR_ASSIGN_OR_RETURN(own.recording_json, ReadIfThere(folder / "recording.json"));
@@ -193,6 +206,7 @@ Result<Recording> OpenOwnFolder(const fs::path& folder, const RecordingOptions& 
     recording.is_photo = true;
     PLEINAIR_ASSIGN_OR_RETURN(recording.frames,
                               OpenImageSequence({{frames, 0, std::nullopt}}, size));
+    AddLensOfImages({frames}, &recording);
     return recording;
   }
   if (IsFile(frames)) {
@@ -231,6 +245,7 @@ Result<Recording> OpenOwnFolder(const fs::path& folder, const RecordingOptions& 
     sequence.push_back({files[i], Nanoseconds(stamp_s), std::nullopt});
   }
   PLEINAIR_ASSIGN_OR_RETURN(recording.frames, OpenImageSequence(std::move(sequence), size));
+  AddLensOfImages(files, &recording);
   return recording;
 }
 
@@ -303,6 +318,7 @@ Result<Recording> OpenPlainFile(const fs::path& file, const RecordingOptions& op
     recording.frame_rate_hz = kOneImageRate_hz;
     recording.is_photo = true;
     PLEINAIR_ASSIGN_OR_RETURN(recording.frames, OpenImageSequence({{file, 0, std::nullopt}}, size));
+    AddLensOfImages({file}, &recording);
     return recording;
   }
   PLEINAIR_ASSIGN_OR_RETURN(OpenedVideo video, OpenVideo(file, {}));

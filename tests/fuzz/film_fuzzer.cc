@@ -15,6 +15,7 @@
 #include "devices/films/film_colors.h"
 #include "devices/films/film_stamps.h"
 #include "devices/films/film_tags.h"
+#include "devices/films/photo_lens.h"
 
 namespace {
 
@@ -110,6 +111,10 @@ void TryTags(std::string_view text) {
   static_cast<void>(pleinair::devices::TagsOfFilm({{"location", std::string(text)},
                                                    {"creation_time", std::string(text)},
                                                    {"model", std::string(text)}}));
+  const auto lens = pleinair::devices::LensOfPhoto(text);
+  Require(!lens.aperture_m || *lens.aperture_m > 0.0);
+  Require(!lens.focus_dioptres ||
+          (*lens.focus_dioptres >= 0.0 && std::isfinite(*lens.focus_dioptres)));
   const auto tags = pleinair::devices::TagsOfPhoto(text);
   Require(!tags.view_heading_deg || std::abs(*tags.view_heading_deg) <= 360.0);
 }
