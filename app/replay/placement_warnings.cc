@@ -76,6 +76,18 @@ bool MayBeInView(const CameraModel& camera, const Transform<Camera, Marker>& cam
   });
 }
 
+/// Returns whether the camera is inside a model's box.
+bool Surrounds(const PlacedModel& placed, Point<Marker> eye) {
+  const ModelBounds box = BoundsOf(*placed.model);
+  // The linear part is a rotation times one scale.
+  const Mat3 transposed = placed.linear.Transposed();
+  const double scale = Norm(transposed * Vec3{1, 0, 0});
+  const Vec3 in_model = transposed * (eye.xyz - placed.translation_m) * (1.0 / (scale * scale));
+  const Vec3 low = in_model - (box.min_m - placed.model->origin_m);
+  const Vec3 high = (box.max_m - placed.model->origin_m) - in_model;
+  return std::min({low.x, low.y, low.z, high.x, high.y, high.z}) > 0.0;
+}
+
 /// Vertices spread over a model, marker coordinates.
 std::vector<Vec3> PointsOf(const PlacedModel& placed) {
   std::size_t count = 0;
@@ -158,6 +170,13 @@ class PlacementCheck {
             name, LengthText(size_m), LengthText(*viewing_m_), table);
       }
     }
+    if (viewing_m_ && !reference.unit_m && !placed.is_phantom && SurroundsCamera(placed)) {
+      return fmt::format(
+          "{} is {} large and surrounds the camera, which is {} from the marker: state its unit, "
+          "reduce it by scale or move it by translation_m; add unit = \"m\" to its {} if it is "
+          "meant so.",
+          name, LengthText(size_m), LengthText(*viewing_m_), table);
+    }
     if (!reference.up && !upright_ && reference.rotation_deg == Vec3{} && LooksYUp(*placed.model)) {
       return fmt::format(
           "{} is probably modelled with y up, and lies on its back: add up = \"y\" to its {}, or "
@@ -183,6 +202,13 @@ class PlacementCheck {
   }
 
  private:
+  bool SurroundsCamera(const PlacedModel& placed) const {
+    const auto inside = std::ranges::count_if(views_.path, [&](const session::Observation& view) {
+      return Surrounds(placed, view.camera_from_marker.Inverse() * Point<Camera>{});
+    });
+    return inside > 0 && 2 * inside >= std::ssize(views_.path);
+  }
+
   std::string SignedHeight(const std::array<Vec3, 8>& corners) const {
     double lowest_m = upright_ ? corners[0].y : corners[0].z;
     for (const Vec3& corner : corners) {

@@ -22,6 +22,8 @@ struct RecordedViews {
 /// - The model is in survey coordinates, with the marker more than a kilometre away.
 /// - An object is more than 100 times larger than the camera's distance from the marker, or 1,000
 ///   times smaller. The scene does not state its unit.
+/// - An object's box surrounds the camera in at least half of the frames, so that it may cover the
+///   whole picture. The scene does not state its unit.
 /// - The model is y-up by shape or header (compositor::LooksYUp). The scene does not state its
 ///   axis.
 /// - An object is in view in no frame, or phantoms hide it in every frame.

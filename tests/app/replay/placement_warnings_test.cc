@@ -87,6 +87,21 @@ TEST(PlacementWarnings, ReportAnObjectInMillimetres) {
   EXPECT_THAT(placing.Warnings(), ElementsAre(HasSubstr("is only 1.732 mm large")));
 }
 
+TEST(PlacementWarnings, ReportAnObjectAroundTheCamera) {
+  Placing around;
+  around.reference.scale = 6.0;  // The camera is 4 m above the marker.
+  around.ground_m = -1.0;
+  EXPECT_THAT(around.Warnings(),
+              ElementsAre("box.obj is 10.39 m large and surrounds the camera, which is 4 m from "
+                          "the marker: state its unit, reduce it by scale or move it by "
+                          "translation_m; add unit = \"m\" to its [[object]] if it is meant so."));
+  around.reference.scale = 3.0;  // Below the camera.
+  EXPECT_THAT(around.Warnings(), IsEmpty());
+  around.reference.scale = 6.0;
+  around.reference.unit_m = 1.0;  // A pavilion that the camera walks through.
+  EXPECT_THAT(around.Warnings(), IsEmpty());
+}
+
 TEST(PlacementWarnings, ReportSurveyCoordinatesUntilTheyAreOffset) {
   Placing placing;
   placing.model.origin_m = {458000.0, 5548000.0, 220.0};
