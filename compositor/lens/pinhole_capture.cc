@@ -18,6 +18,39 @@ Image<float> Downloaded(const gl::GlTexture& texture) {
   return image;
 }
 
+/// Fills in the distances of surfaces whose part of a pixel lies between the renderer's samples,
+/// from the pixels beside it. `objects`: their coverage.
+void FillBetweenSamples(const Image<float>& objects, std::span<const PixelRect> within,
+                        Image<float>* dioptres) {
+  struct Filled {
+    int x, y, channel;
+    float dioptres;
+  };
+  std::vector<Filled> filled;
+  const auto fill = [&](int x, int y, int channel) {
+    float nearest = 0.0F;
+    for (int v = std::max(0, y - 1); v <= std::min(objects.height() - 1, y + 1); ++v) {
+      for (int u = std::max(0, x - 1); u <= std::min(objects.width() - 1, x + 1); ++u) {
+        nearest = std::max(nearest, (*dioptres)(u, v, channel));
+      }
+    }
+    filled.push_back({x, y, channel, nearest});
+  };
+  for (const PixelRect& rect : within) {
+    for (int y = rect.y; y < rect.y + rect.height; ++y) {
+      for (int x = rect.x; x < rect.x + rect.width; ++x) {
+        const float coverage = objects(x, y, 3);
+        if (coverage <= 0.0F || coverage >= 1.0F) continue;
+        for (const int channel :
+             {PinholeImage::kObject, PinholeImage::kNearestReal, PinholeImage::kFarthestReal}) {
+          if ((*dioptres)(x, y, channel) == 0.0F) fill(x, y, channel);
+        }
+      }
+    }
+  }
+  for (const Filled& at : filled) (*dioptres)(at.x, at.y, at.channel) = at.dioptres;
+}
+
 bool HasOccluderEdge(const PinholeImage& image, const PixelRect& tile) {
   for (int y = tile.y; y < tile.y + tile.height; ++y) {
     for (int x = tile.x; x < tile.x + tile.width; ++x) {
@@ -63,10 +96,12 @@ Image<float> PinholeCapture::Dioptres(const RenderTargets& targets, const shadow
 
 PinholeImage PinholeCapture::Capture(const RenderTargets& targets, const shadows::View& view,
                                      std::span<const PixelRect> within) const {
-  return {.ratio = Downloaded(targets.ratio()),
-          .objects = Downloaded(targets.objects()),
-          .objects_alone = {},
-          .dioptres = Dioptres(targets, view, within)};
+  PinholeImage image{.ratio = Downloaded(targets.ratio()),
+                     .objects = Downloaded(targets.objects()),
+                     .objects_alone = {},
+                     .dioptres = Dioptres(targets, view, within)};
+  FillBetweenSamples(image.objects, within, &image.dioptres);
+  return image;
 }
 
 void PinholeCapture::AddHidden(const RenderTargets& targets, const shadows::View& view,
@@ -88,9 +123,10 @@ void PinholeCapture::AddHidden(const RenderTargets& targets, const shadows::View
   const std::vector<PixelRect> tiles = drawn.Without(drawn.Without(hidden)).Rectangles();
   if (tiles.empty()) return;
   objects.draw();
-  const Image<float> alone = Dioptres(targets, view, tiles);
+  Image<float> alone = Dioptres(targets, view, tiles);
   objects.shade(tiles);
   const Image<float> colors = Downloaded(targets.objects());
+  FillBetweenSamples(colors, tiles, &alone);
   image->objects_alone = image->objects;
   for (const PixelRect& rect : tiles) {
     for (int y = rect.y; y < rect.y + rect.height; ++y) {
