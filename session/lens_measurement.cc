@@ -1,7 +1,9 @@
 #include "session/lens_measurement.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -38,6 +40,18 @@ std::optional<compositor::MarkerMotion> MotionAt(const std::vector<Observation>&
 }
 
 }  // namespace
+
+bool MayTellFocus(const Pipeline& pipeline) {
+  const std::optional<MarkerName> marker = pipeline.tracks().ReferenceMarker();
+  if (!marker || pipeline.scene().marker.target) return false;
+  double nearest_m = std::numeric_limits<double>::max(), farthest_m = 0.0;
+  for (const Observation& at : pipeline.tracks().TrackOf(*marker)) {
+    const double depth_m = at.camera_from_marker.translation_m.z;
+    nearest_m = std::min(nearest_m, depth_m);
+    farthest_m = std::max(farthest_m, depth_m);
+  }
+  return farthest_m >= compositor::kLeastDistanceChange * nearest_m;
+}
 
 Result<MeasuredLens> MeasureLens(Pipeline& pipeline, const compositor::KnownLens& known,
                                  devices::Recording recording, const PassMonitor& monitor) {

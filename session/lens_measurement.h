@@ -16,6 +16,10 @@ struct MeasuredLens {
   std::vector<compositor::BlurReading> readings;  ///< One a side of the marker and frame.
 };
 
+/// False where the reference marker is missing, or stays at one distance, so that its blur tells no
+/// focus. Needs no frame.
+bool MayTellFocus(const Pipeline& pipeline);
+
 /// Measures focus and aperture on the reference marker in at most 120 frames, after
 /// TrackRecording(). The camera's response is that of the renderer, or, of scenes without objects,
 /// that of the scene or of the film. A refusal is no error: `fit` has its reason. Errors: an

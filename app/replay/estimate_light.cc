@@ -24,6 +24,8 @@ Result<void> MeasureLens(ReplayState& state) {
   if (!lens.MayBeMeasured() || !state.renderer().DrawsObjects() || state.report.path.empty()) {
     return {};
   }
+  const bool is_asked_for = state.options.light.defocus.mode == session::DefocusMode::kMeasured;
+  if (!is_asked_for && !session::MayTellFocus(*state.pipeline)) return {};
   PLEINAIR_ASSIGN_OR_RETURN(devices::Recording recording, state.OpenRecording());
   PassBar bar("Measuring the lens", state.report.call.recording);
   PLEINAIR_ASSIGN_OR_RETURN(state.report.film.lens, state.times.Measure("measure lens", [&] {
@@ -32,7 +34,6 @@ Result<void> MeasureLens(ReplayState& state) {
   }));
   const compositor::FocusFit& fit = state.report.film.lens->fit;
   state.renderer().UseMeasuredLens(fit, state.pipeline->tracks().frame_times());
-  const bool is_asked_for = state.options.light.defocus.mode == session::DefocusMode::kMeasured;
   for (std::string& sentence : LensWarnings(fit, is_asked_for)) {
     state.report.warnings.push_back(std::move(sentence));
   }

@@ -14,8 +14,7 @@ namespace pleinair::compositor {
 namespace {
 
 constexpr std::size_t kMinReadings = 16;
-constexpr double kLeastChange = 1.15;   // Of the distance of the print's centre.
-constexpr double kLeastRise_px = 0.15;  // Of the blur at an end above σ₀.
+constexpr double kLeastRise_px = 0.15;                       // The blur at an end above σ₀.
 constexpr double kLeastCurvature = 3.0, kLeastMotion = 3.0;  // Standard errors.
 constexpr double kMaxFocusError = 0.1, kMaxFocusErrorShare = 0.1;
 constexpr double kMinOwnBlur_px = 0.2;
@@ -32,7 +31,7 @@ double SharedVariance(double blur_px) {
 
 /// How many readings lie at about the distance of each.
 std::vector<double> Neighbours(std::span<const BlurReading> readings) {
-  constexpr double kBin = 0.03;  // Of the distance.
+  constexpr double kBin = 0.03;  // A share of the distance.
   std::map<long, double> bins;
   const auto bin = [](const BlurReading& r) { return std::lround(std::log(r.dioptres) / kBin); };
   for (const BlurReading& reading : readings) bins[bin(reading)] += 1.0;
@@ -207,7 +206,7 @@ FocusFit FitFocus(std::span<const BlurReading> readings, double fx, const KnownL
     return fit;
   }
   std::tie(fit.nearest_m, fit.farthest_m) = DistancesOfCentre(readings);
-  if (fit.farthest_m < kLeastChange * fit.nearest_m) {
+  if (fit.farthest_m < kLeastDistanceChange * fit.nearest_m) {
     fit.reason = "the marker's distance hardly changes";
     return fit;
   }

@@ -24,7 +24,7 @@ struct BlurReading {
 
 /// What is known of the lens beforehand.
 struct KnownLens {
-  std::optional<double> aperture_m, focus_dioptres, exposure_s;
+  std::optional<double> aperture_m{}, focus_dioptres{}, exposure_s{};
 };
 
 /// Focus in a part of a recording whose focus changes.
@@ -46,16 +46,20 @@ struct FocusFit {
   bool is_measured() const { return reason.empty(); }
 };
 
-/// Fits σ² = σ₀² + (fx D / 4)² (1/z − 1/z_f)² + (v t)² / 12 to the readings: a uniform disc of
-/// diameter d has the second moment (d/4)² along a line, and a motion of length v t has (v t)²/12.
+/// The farthest distance of the print's centre over the nearest one, below which blur does not tell
+/// the focus.
+inline constexpr double kLeastDistanceChange = 1.15;
+
+/// Fits σ² = σ₀² + (fx D / 4)² (1/z − 1/z_f)² + (v t)² / 12 to the readings. A uniform disc of
+/// diameter d has the second moment (d/4)² along a line. A motion of length v t has (v t)²/12.
 /// It is linear in powers of 1/z, so that nothing has to be guessed. Weighted by 1 / (2 σ s)²,
-/// three rounds with Huber weights. Sides that blur by more than 15 % beyond those across them at
-/// the same depth are moved by what the poses do not show, and are left out.
+/// three rounds with Huber weights. Some sides blur by more than 15 % beyond those across them at
+/// the same depth. They are moved by what the poses do not show, and are left out.
 ///
 /// Errors: the larger of the formal one and of the jackknife over eighths of the frames. Refuses
-/// where the print's distance changes by less than 15 %, where the parabola is not curved by three
-/// standard errors, where the blur at both ends exceeds σ₀ by less than 0.15 px, and where the
-/// focus is not known to 0.1 dioptres plus a tenth.
+/// where the print's distance changes too little, and where the parabola is not curved by three
+/// standard errors. It also refuses where the blur at both ends exceeds σ₀ by less than 0.15 px,
+/// and where the focus is not known to 0.1 dioptres plus a tenth.
 ///
 /// `fx`: focal length, pixels. Readings in order of frames.
 FocusFit FitFocus(std::span<const BlurReading> readings, double fx, const KnownLens& known = {});
