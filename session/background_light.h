@@ -130,7 +130,7 @@ class BackgroundLight {
     std::optional<SceneEdit::Sky> skies_of{};  // The edit's air for which they were made.
     compositor::LightFilter filter{};          // Of all estimates so far.
     compositor::SkyState found{};              // Skies of the last estimate, as is the heading.
-    clouds::CloudFields clouds{};              // Of the scene.
+    clouds::CloudFields clouds{};              // The scene's.
     Radians heading{};
     std::unique_ptr<compositor::LightEstimator> estimator{};  // For the estimate under way.
   };

@@ -12,13 +12,13 @@ struct CloudBenchRow {
   double transmitted = 0.0;  ///< Scattered and direct together.
   double direct = 0.0;
   double reference = 0.0;       ///< `transmitted` by paths of photons.
-  double relative_error = 0.0;  ///< Of `transmitted`.
+  double relative_error = 0.0;  ///< Relative to `reference`.
   double ms = 0.0;
 };
 
 /// Reflected and transmitted sunlight of slabs, of the step cloud of the I3RC and of each kind of
-/// layer, by the methods of skies and by paths of photons (clouds::TracePhotons()). `photons`: for
-/// each reference. `print` receives each row.
+/// layer. It compares the methods of skies with clouds::TracePhotons(). `photons`: for each
+/// reference. `print` receives each row.
 void RunCloudBench(int photons, const std::function<void(const CloudBenchRow&)>& print);
 
 /// Number of the rows.

@@ -33,9 +33,14 @@ struct DefocusBenchRow {
 /// layered, gaussian, gather and lens:32.
 std::vector<std::string> DefaultDefocusMethods();
 
-/// layered: as replay. gaussian, gaussian-each: the paper's layers, in cascade and each for itself.
-/// gather: by one depth a pixel. lens:N: through N places, 1…1024. pinhole: without a lens. Error
-/// (input): another name.
+/// Known are:
+/// - layered: as replay;
+/// - gaussian, gaussian-each: the paper's layers, in cascade and each for itself;
+/// - gather: by one depth a pixel;
+/// - lens:N: through N places, 1…1024;
+/// - pinhole: without a lens.
+///
+/// Error (input): another name.
 Result<void> CheckDefocusMethod(const std::string& method);
 
 /// What receives the results.

@@ -83,8 +83,8 @@ Result<void> RunDefocus(DefocusBenchArguments& arguments) {
     bench.height = size.height;
   }
   if (arguments.quick) {
-    bench.width = 96;
-    bench.height = 72;
+    bench.width = 64;
+    bench.height = 48;
     bench.rounds = 1;
     bench.truth_places = 64;
   }

@@ -35,9 +35,9 @@ struct GaussianLayers {
 GaussianLayers DrawGaussianLayers(const DefocusScene& scene, const PeeledBoards& seen,
                                   bool in_cascade);
 
-/// Light by gathering with one depth a pixel, as Filament and Blender's compositor publish it: each
-/// neighbour counts where its circle of confusion reaches, one that lies farther only as far as the
-/// pixel's own.
+/// Light by gathering with one depth a pixel, as Filament and Blender's compositor publish it. Each
+/// neighbour counts where its circle of confusion reaches. One that lies farther counts only as far
+/// as the pixel's own circle.
 Image<float> DrawGathered(const DefocusScene& scene, const PeeledBoards& seen);
 
 /// Standard deviation of the n-th layer from the focus, by Gaussians of 1, 2 … n pixels in a row.

@@ -30,9 +30,12 @@ struct DefocusScene {
   Transform<Camera, Marker> camera_from_marker;
 };
 
-/// boards: three that cross, circles of 8, 3.5 and 0 px. edges: two out of focus whose edges lie
-/// within a circle. fence: bars of 6 px with circles of 12 px before a wall in focus. stack: eight
-/// from 10 px before the focus to 6 px behind. far: five behind the focus.
+/// Known are:
+/// - boards: three that cross, circles of 8, 3.5 and 0 px;
+/// - edges: two out of focus whose edges lie within a circle;
+/// - fence: bars of 6 px with circles of 12 px before a wall in focus;
+/// - stack: eight from 10 px before the focus to 6 px behind;
+/// - far: five behind the focus.
 std::span<const std::string_view> DefocusSceneNames();
 
 /// A scene of DefocusSceneNames() for this camera.

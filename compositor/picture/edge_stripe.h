@@ -23,12 +23,12 @@ struct EdgeStripe {
 
 /// How far a stripe reaches.
 struct StripeReach {
-  double share = 0.9;  ///< Of the black band or the white margin, the narrower one.
+  double share = 0.9;  ///< A share of the narrower one of black band and white margin.
   double largest_px = 14.0;
 };
 
-/// Reads the stripe across a side (0 top, 1 left, 2 bottom, 3 right) at `along`: −1 at one end of
-/// the side, 1 at the other. Returns false where the edge is outside the image, too small, clipped,
+/// Reads the stripe across a side: 0 top, 1 left, 2 bottom, 3 right. `along`: −1 at one end of the
+/// side, 1 at the other. Returns false where the edge is outside the image, too small, clipped,
 /// or has too little contrast for paper and ink. Reuses the memory of `stripe`.
 bool ReadEdgeStripe(const MarkerInImage& marker, int side, double along, const StripeReach& reach,
                     EdgeStripe* stripe);

@@ -19,7 +19,7 @@ namespace pleinair::devices {
 /// Values of one image's EXIF data.
 class Exif {
  public:
-  /// Of a JPEG image, or of its beginning; nothing without EXIF.
+  /// Reads a JPEG image, or its beginning; nothing without EXIF.
   static std::optional<Exif> In(std::string_view jpeg) {
     ExifData* data = exif_data_new_from_data(reinterpret_cast<const unsigned char*>(jpeg.data()),
                                              static_cast<unsigned>(jpeg.size()));

@@ -44,11 +44,11 @@ class CloudedDay : public sky::SkyModel {
   std::vector<LinearRgb> nodes_;  ///< Hemi-octahedral map, row-major.
   LinearRgb aureole_;             ///< Radiance of the lobe at the sun.
   LinearRgb horizontal_;
-  double share_in_air_ = 1.0;  ///< Of the clear sky's global light.
+  double share_in_air_ = 1.0;  ///< A share of the clear sky's global light.
 };
 
-/// A light with the distribution of a clouded sky, for reflections: the sky has the illuminance of
-/// `light`, which must outlive this object, as have the sun and the air.
+/// A light with the distribution of a clouded sky, for reflections. Sky, sun and air are as strong
+/// as those of `light`, which must outlive this object.
 class MirroredClouds : public sky::SkyModel {
  public:
   MirroredClouds(const sky::SkyModel& light, CloudedDay clouds);

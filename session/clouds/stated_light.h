@@ -41,7 +41,7 @@ class StatedLight {
   LinearRgb SkyOf(const BakedLighting& baked, double seconds) const;
 
   clouds::CloudFields fields_;
-  std::shared_ptr<const BakedLighting> baked_;  ///< Of the values below.
+  std::shared_ptr<const BakedLighting> baked_;  ///< Baked for the values below.
   clouds::GroundBox box_;
   LinearRgb baked_sky_;                          ///< As SkyOf(), at its time.
   std::map<std::int64_t, LinearRgb> by_second_;  ///< The last seconds.

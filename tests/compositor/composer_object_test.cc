@@ -93,7 +93,9 @@ TEST(Composer, SmoothsASlantedEdgeInFourSteps) {
       {},
       false};
   constexpr std::uint8_t kWhite = 200;
-  const RgbImage composed = Compose({square}, EvenPicture(kWhite));
+  ComposerOptions four_samples;
+  four_samples.antialiasing.method = AntialiasingMethod::kMultisample;
+  const RgbImage composed = Compose({square}, EvenPicture(kWhite), kCamera, kSunLux, four_samples);
   std::array<int, 5> pixels{};  // By covered quarters.
   for (int y = 0; y < composed.height(); ++y) {
     for (int x = 0; x < composed.width(); ++x) {

@@ -67,13 +67,12 @@ TEST(TimeLapseReplay, LetsTheShadowsOfCloudsTravelOverGroundAndObject) {
   const RunResult run =
       RunPleinair({"replay", folder / "site", "--scene", folder / "site/clouds.toml", "-o",
                    folder / "out", "--no-video", "--light", "stated", "--size", "160x120",
-                   "--frames", "--time-lapse", "13:05..13:07+02:00", "--every", "10s"});
+                   "--frames", "--time-lapse", "13:05..13:07+02:00", "--every", "20s"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   double darkest = 255.0, brightest = 0.0;
-  for (int i = 0; i <= 12; ++i) {
-    const cv::Mat picture = cv::imread(
-        folder / "out/timelapse" /
-        (i < 10 ? "000" + std::to_string(i) + ".png" : "00" + std::to_string(i) + ".png"));
+  for (int i = 0; i <= 6; ++i) {
+    const std::string name = "000" + std::to_string(i) + ".png";
+    const cv::Mat picture = cv::imread(folder / "out/timelapse" / name);
     ASSERT_FALSE(picture.empty()) << i;
     const double ground = cv::mean(picture.rowRange(100, 120))[1];
     darkest = std::min(darkest, ground);

@@ -129,7 +129,7 @@ TEST(Recording, GroundTruthIsNeverLookedAt) {
   EXPECT_EQ(recording->scene->marker.heading, whole->scene->marker.heading);
   EXPECT_EQ(recording->scene->cloudiness, whole->scene->cloudiness);
   EXPECT_FALSE(recording->scene->turbidity);
-  EXPECT_FALSE(recording->scene->exposure_scale);
+  EXPECT_FALSE(recording->scene->camera.exposure_scale);
 }
 
 TEST_F(SmallRecording, RecordingJsonAloneIsEnough) {

@@ -68,7 +68,7 @@ double HenyeyGreensteinCosine(Random* random) {
 }
 
 /// One sample of the scattered illuminance of level ground at the place, over that of the sun on a
-/// surface that faces it: a path against the light, with the sun's light added at each scattering.
+/// surface that faces it. A path runs against the light; each scattering adds the sun's light.
 /// Light that is scattered once has the phase function of droplets. The rest has
 /// Henyey-Greenstein's, whose lower peak makes less noise.
 double FollowToTheSun(const CloudField& field, Vec3 sun, double seconds, Random* random) {
