@@ -12,6 +12,7 @@
 #include "app/bench/bench_composer.h"
 #include "app/bench/defocus_rivals.h"
 #include "app/bench/defocus_scenes.h"
+#include "app/bench/traced_boards.h"
 #include "app/options/defocus_options.h"
 #include "base/quantile.h"
 #include "base/srgb.h"
@@ -21,8 +22,6 @@ namespace pleinair::app {
 namespace {
 
 using compositor::Composer;
-
-constexpr compositor::Antialiasing kWholePixels{compositor::AntialiasingMethod::kReference, 16};
 
 Image<float> LightOf(const RgbImage& image) {
   Image<float> light(image.width(), image.height());
@@ -52,17 +51,12 @@ Image<std::uint8_t> EdgePixels(const DefocusScene& scene, int width, int height)
 /// One scene with its truth.
 class DefocusRun {
  public:
-  static Result<DefocusRun> Create(const std::string& name, const DefocusBenchOptions& options) {
+  static Result<DefocusRun> Create(const std::string& name, const PictureBench& options) {
     DefocusRun run(name, options);
-    PLEINAIR_ASSIGN_OR_RETURN(auto truth,
-                              MakeBenchComposer(run.camera_, run.scene_.models, kWholePixels));
-    truth->SetLens(run.scene_.lens, options.truth_places);
-    PLEINAIR_ASSIGN_OR_RETURN(const RgbImage image, run.Compose(*truth));
-    run.truth_ = LightOf(image);
+    run.truth_ = TraceBoards(run.scene_, run.camera_.width, run.camera_.height);
     run.edges_ = EdgePixels(run.scene_, run.camera_.width, run.camera_.height);
-    PLEINAIR_ASSIGN_OR_RETURN(run.pinhole_,
-                              MakeBenchComposer(run.camera_, run.scene_.models,
-                                                {compositor::AntialiasingMethod::kMultisample}));
+    // With the antialiasing of replay.
+    PLEINAIR_ASSIGN_OR_RETURN(run.pinhole_, MakeBenchComposer(run.camera_, run.scene_.models, {}));
     return run;
   }
 
@@ -131,7 +125,7 @@ class DefocusRun {
   }
 
  private:
-  DefocusRun(const std::string& name, const DefocusBenchOptions& options)
+  DefocusRun(const std::string& name, const PictureBench& options)
       : options_(options),
         camera_(BenchCamera(options.width, options.height)),
         scene_(MakeDefocusScene(name, camera_)),
@@ -171,7 +165,7 @@ class DefocusRun {
     return LightOf(image);
   }
 
-  DefocusBenchOptions options_;
+  PictureBench options_;
   CameraModel camera_;
   DefocusScene scene_;
   PeeledBoards peeled_;
@@ -201,12 +195,12 @@ Result<void> CheckDefocusMethod(const std::string& method) {
                     "lens:1024");
 }
 
-Result<void> RunDefocusBench(const DefocusBenchOptions& options, const DefocusBenchSink& sink) {
-  std::vector<std::string> scenes = options.scenes, methods = options.methods;
+Result<void> RunDefocusBench(const PictureBench& bench, const DefocusBenchSink& sink) {
+  std::vector<std::string> scenes = bench.scenes, methods = bench.methods;
   if (scenes.empty()) scenes.assign(DefocusSceneNames().begin(), DefocusSceneNames().end());
   if (methods.empty()) methods = DefaultDefocusMethods();
   for (const std::string& scene : scenes) {
-    PLEINAIR_ASSIGN_OR_RETURN(DefocusRun run, DefocusRun::Create(scene, options));
+    PLEINAIR_ASSIGN_OR_RETURN(DefocusRun run, DefocusRun::Create(scene, bench));
     sink.advance();
     std::vector<DefocusBenchRow> rows;
     rows.reserve(methods.size());

@@ -4,19 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "app/bench/picture_bench.h"
 #include "base/error.h"
 #include "base/image.h"
 
 namespace pleinair::app {
-
-/// What a run of the benchmark compares, and how long.
-struct DefocusBenchOptions {
-  std::vector<std::string> scenes;   ///< Names; empty: all.
-  std::vector<std::string> methods;  ///< CheckDefocusMethod(); empty: DefaultDefocusMethods().
-  int width = 320, height = 240;
-  int rounds = 5;           ///< All methods in turn; the median counts.
-  int truth_places = 1024;  ///< On the stop, of the reference.
-};
 
 /// Results of one method in one scene.
 struct DefocusBenchRow {
@@ -30,10 +22,10 @@ struct DefocusBenchRow {
   int layers = 0, peels = 0;      ///< 0: not by layers.
 };
 
-/// layered, gaussian, gather and lens:32.
+/// The methods that are compared where none is chosen: layered, gaussian, gather and lens:32.
 std::vector<std::string> DefaultDefocusMethods();
 
-/// Known are:
+/// Checks the name of a method. Known are:
 /// - layered: as replay;
 /// - gaussian, gaussian-each: the paper's layers, in cascade and each for itself;
 /// - gather: by one depth a pixel;
@@ -51,8 +43,8 @@ struct DefocusBenchSink {
   std::function<Result<void>(const std::string& scene, const RgbImage& sheet)> on_sheet;
 };
 
-/// Runs the benchmark. The truth is drawn through `truth_places` of the stop, with 16 places a
-/// pixel. Errors: no OpenGL 4.5 (system), those of the sink.
-Result<void> RunDefocusBench(const DefocusBenchOptions& options, const DefocusBenchSink& sink);
+/// Compares methods of depth of field with TraceBoards(). `bench`: methods as CheckDefocusMethod()
+/// knows them; none: DefaultDefocusMethods(). Errors: no OpenGL 4.5 (system), those of the sink.
+Result<void> RunDefocusBench(const PictureBench& bench, const DefocusBenchSink& sink);
 
 }  // namespace pleinair::app

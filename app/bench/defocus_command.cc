@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <cstdint>
 #include <filesystem>
-#include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -15,7 +13,7 @@
 
 #include "app/bench/defocus_bench.h"
 #include "app/bench/defocus_scenes.h"
-#include "app/options/picture_size.h"
+#include "app/bench/picture_bench.h"
 #include "app/terminal/progress_bar.h"
 #include "export/images/image_writer.h"
 #include "files/output_rule.h"
@@ -30,12 +28,11 @@ constexpr const char* kDefocusBenchExamples =
     "  pleinair bench defocus --methods gaussian,gaussian-each --rounds 9 --json > defocus.jsonl\n"
     "Methods: layered (as replay), gaussian (the paper's layers, blurred in cascade),\n"
     "gaussian-each (without the cascade), gather (one depth a pixel), lens:N (N places on the\n"
-    "stop), pinhole. The truth is lens:1024; --quick takes lens:64.";
+    "stop), pinhole. The truth is 4,096 traced rays a pixel.";
 
 struct DefocusBenchArguments {
-  DefocusBenchOptions bench;
-  std::string size, output;
-  bool quick = false, json = false;
+  PictureBenchArguments pictures;
+  std::string output;
 };
 
 nlohmann::ordered_json DefocusRowJson(const DefocusBenchRow& row) {
@@ -61,10 +58,11 @@ std::filesystem::path SheetOf(const std::filesystem::path& folder, std::string_v
 }
 
 Result<void> RunDefocus(DefocusBenchArguments& arguments) {
-  DefocusBenchOptions& bench = arguments.bench;
+  const PictureBench& bench = arguments.pictures.bench;
   for (const std::string& method : bench.methods) {
     PLEINAIR_RETURN_IF_ERROR(CheckDefocusMethod(method));
   }
+  PLEINAIR_RETURN_IF_ERROR(SettlePictureBench(&arguments.pictures));
   const std::filesystem::path folder = arguments.output;
   if (!folder.empty()) {
     for (const std::string_view scene : DefocusSceneNames()) {
@@ -77,30 +75,15 @@ Result<void> RunDefocus(DefocusBenchArguments& arguments) {
                          "name another folder with -o");
     }
   }
-  if (!arguments.size.empty()) {
-    PLEINAIR_ASSIGN_OR_RETURN(const ImageSize size, ParsePictureSize("--size", arguments.size));
-    bench.width = size.width;
-    bench.height = size.height;
-  }
-  if (arguments.quick) {
-    bench.width = 64;
-    bench.height = 48;
-    bench.rounds = 1;
-    bench.truth_places = 64;
-  }
-  const auto count = [](const std::vector<std::string>& chosen, std::size_t all) {
-    return static_cast<std::int64_t>(chosen.empty() ? all : chosen.size());
-  };
-  const std::int64_t methods = count(bench.methods, DefaultDefocusMethods().size());
-  ProgressBar bar("bench", count(bench.scenes, DefocusSceneNames().size()) * (1 + methods), "rows");
-  bool is_headed = arguments.json;
+  ProgressBar bar(
+      "bench", CountBenchSteps(bench, DefocusSceneNames().size(), DefaultDefocusMethods().size()),
+      "rows");
+  const bool json = arguments.pictures.json;
+  BenchTable table(json ? "" : kDefocusHead);
   DefocusBenchSink sink;
   sink.advance = [&] { bar.Advance(); };
   sink.on_row = [&](const DefocusBenchRow& row) {
-    if (!is_headed) std::cout << kDefocusHead;
-    is_headed = true;
-    std::cout << (arguments.json ? DefocusRowJson(row).dump() + '\n' : DefocusRowText(row))
-              << std::flush;
+    table.Print(json ? DefocusRowJson(row).dump() + '\n' : DefocusRowText(row));
   };
   if (!folder.empty()) {
     sink.on_sheet = [&](const std::string& scene, const RgbImage& sheet) {
@@ -114,36 +97,21 @@ Result<void> RunDefocus(DefocusBenchArguments& arguments) {
 
 void AddDefocusBenchCommand(CLI::App& bench, CommandResult& result) {
   CLI::App* command = bench.add_subcommand(
-      "defocus", "Methods of depth of field against 1024 places on the lens's stop");
+      "defocus", "Methods of depth of field against traced rays through a thin lens");
   command->footer(kDefocusBenchExamples);
   auto arguments = std::make_shared<DefocusBenchArguments>();
-  const auto scenes = DefocusSceneNames();
-  command->add_option("--scenes", arguments->bench.scenes, "Which scenes; all by default")
-      ->delimiter(',')
-      ->check(CLI::IsMember(std::vector<std::string>(scenes.begin(), scenes.end())))
-      ->type_name("NAME,...");
+  PictureBenchArguments& pictures = arguments->pictures;
+  AddPictureBenchOptions(*command, DefocusSceneNames(), "Small pictures, one round", &pictures);
   command
-      ->add_option("--methods", arguments->bench.methods,
+      ->add_option("--methods", pictures.bench.methods,
                    "Which methods; layered,gaussian,gather,lens:32 by default")
       ->delimiter(',')
       ->type_name("NAME,...");
-  CLI::Option* size = command->add_option("--size", arguments->size,
-                                          "Size of the pictures, WIDTHxHEIGHT; default 320x240");
-  CLI::Option* rounds =
-      command
-          ->add_option("--rounds", arguments->bench.rounds,
-                       "Rounds in which all methods are timed in turn; the median counts")
-          ->check(CLI::Range(1, 1000))
-          ->capture_default_str();
   command
       ->add_option("-o,--output", arguments->output,
                    "Folder for a picture a scene: the truth, then the methods from left to "
                    "right; replaces no file there")
       ->type_name("DIR");
-  command->add_flag("--quick", arguments->quick, "Small pictures, one round")
-      ->excludes(size)
-      ->excludes(rounds);
-  command->add_flag("--json", arguments->json, "One JSON object a row");
   command->callback([arguments, &result] { result.status = RunDefocus(*arguments); });
 }
 

@@ -25,22 +25,25 @@ class PeeledBoards {
   Image<std::int8_t> board_;
 };
 
-/// Light of the paper's method: layers by matting functions of depth, each blurred by a Gaussian.
-/// D. Schedl, M. Wimmer: A layered depth-of-field method for solving partial occlusion (WSCG 2012).
-/// `in_cascade`: as they do it; else each layer is blurred for itself.
+/// Light of boards as DrawGaussianLayers() draws it.
 struct GaussianLayers {
-  Image<float> light;
+  Image<float> light;  ///< Linear, one channel.
   int layers = 0;
 };
+
+/// Draws by layers of depth, each blurred by a Gaussian. Layers are split by matting functions.
+/// D. Schedl, M. Wimmer: A layered depth-of-field method for solving partial occlusion (WSCG 2012),
+/// Eqs. 9 to 13. `in_cascade`: as they do it; else each layer is blurred for itself.
 GaussianLayers DrawGaussianLayers(const DefocusScene& scene, const PeeledBoards& seen,
                                   bool in_cascade);
 
-/// Light by gathering with one depth a pixel, as Filament and Blender's compositor publish it. Each
+/// Draws by gathering with one depth a pixel, as Filament and Blender's compositor publish it. Each
 /// neighbour counts where its circle of confusion reaches. One that lies farther counts only as far
 /// as the pixel's own circle.
 Image<float> DrawGathered(const DefocusScene& scene, const PeeledBoards& seen);
 
-/// Standard deviation of the n-th layer from the focus, by Gaussians of 1, 2 … n pixels in a row.
+/// Standard deviation of the n-th layer from the focus, pixels: Gaussians of 1, 2 … n pixels in a
+/// row.
 double SigmaOfLayer(int n);
 
 /// Weights of the paper's matting functions (Eqs. 3 and 4, misprints mended) at a circle of

@@ -30,7 +30,7 @@ struct DefocusScene {
   Transform<Camera, Marker> camera_from_marker;
 };
 
-/// Known are:
+/// Names of the scenes:
 /// - boards: three that cross, circles of 8, 3.5 and 0 px;
 /// - edges: two out of focus whose edges lie within a circle;
 /// - fence: bars of 6 px with circles of 12 px before a wall in focus;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <span>
 #include <vector>
@@ -9,7 +11,8 @@
 
 namespace pleinair::compositor {
 
-/// σ² = a + b q + c q² + e v², with q = 1/z and the squared speed v² across the edge.
+/// Blur of a print's edge over its distance z: σ² = a + b q + c q² + e v², pixels², with q = 1/z
+/// (1/m) and the speed v across the edge (px/s). docs/method/lens.md derives it.
 struct BlurParabola {
   double a = 0.0, b = 0.0, c = 0.0, e = 0.0;
 
