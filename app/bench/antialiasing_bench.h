@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/bench/antialiasing_errors.h"
+#include "app/bench/picture_bench.h"
 #include "base/error.h"
 #include "compositor/antialiasing.h"
 
@@ -22,11 +23,7 @@ struct AntialiasingBenchMethod {
 std::span<const AntialiasingBenchMethod> AntialiasingBenchMethods();
 
 /// What a run of the benchmark compares, and how long.
-struct AntialiasingBenchOptions {
-  std::vector<std::string> scenes;   ///< Names; empty: all.
-  std::vector<std::string> methods;  ///< Names; empty: all.
-  int width = 320, height = 240;
-  int rounds = 5;        ///< All methods in turn; the median counts.
+struct AntialiasingBenchOptions : PictureBench {
   int creep_frames = 6;  ///< The camera moves by 0.1 px a frame.
 };
 
@@ -40,8 +37,8 @@ struct AntialiasingBenchRow {
   double ratio_to_none = 0.0;  ///< Processor time over that of `none`; 0 if that is not measured.
 };
 
-/// Runs the benchmark. The truth is `reference`. Calls `advance` once a scene for its truth and
-/// after every row, and `on_row` with each row. Errors: no OpenGL 4.5 (system).
+/// Compares methods of antialiasing with `reference`. Calls `advance` once a scene for its truth
+/// and after every row, and `on_row` with each row. Errors: no OpenGL 4.5 (system).
 Result<void> RunAntialiasingBench(const AntialiasingBenchOptions& options,
                                   const std::function<void()>& advance,
                                   const std::function<void(const AntialiasingBenchRow&)>& on_row);

@@ -3,16 +3,13 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <cstdint>
-#include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <string>
 
 #include "app/bench/antialiasing_bench.h"
 #include "app/bench/antialiasing_scenes.h"
-#include "app/options/picture_size.h"
+#include "app/bench/picture_bench.h"
 #include "app/terminal/progress_bar.h"
 #include "gl/shader_library.h"
 
@@ -26,9 +23,8 @@ constexpr const char* kAntialiasingBenchExamples =
     "  pleinair bench antialiasing --size 640x480 --rounds 9 --json > antialiasing.jsonl";
 
 struct AntialiasingBenchArguments {
-  AntialiasingBenchOptions bench;
-  std::string size, shader_directory;
-  bool quick = false, json = false;
+  PictureBenchArguments pictures;
+  std::string shader_directory;
 };
 
 nlohmann::ordered_json AntialiasingRowJson(const AntialiasingBenchRow& row) {
@@ -61,35 +57,20 @@ std::string AntialiasingRowText(const AntialiasingBenchRow& row) {
 }
 
 Result<void> RunAntialiasing(AntialiasingBenchArguments& arguments) {
-  AntialiasingBenchOptions& bench = arguments.bench;
-  if (!arguments.size.empty()) {
-    PLEINAIR_ASSIGN_OR_RETURN(const ImageSize size, ParsePictureSize("--size", arguments.size));
-    bench.width = size.width;
-    bench.height = size.height;
-  }
-  if (arguments.quick) {
-    bench.width = 96;
-    bench.height = 72;
-    bench.rounds = 1;
-    bench.creep_frames = 2;
-  }
+  PLEINAIR_RETURN_IF_ERROR(SettlePictureBench(&arguments.pictures));
+  AntialiasingBenchOptions bench{arguments.pictures.bench};
+  if (arguments.pictures.quick) bench.creep_frames = 2;
   gl::ShaderLibrary::SetOverrideDirectory(arguments.shader_directory);
-  const auto count = [](const std::vector<std::string>& chosen, std::size_t all) {
-    return static_cast<std::int64_t>(
-        chosen.empty() ? all : std::set<std::string>(chosen.begin(), chosen.end()).size());
-  };
-  const std::int64_t methods = count(bench.methods, AntialiasingBenchMethods().size());
-  ProgressBar bar("bench", count(bench.scenes, AntialiasingSceneNames().size()) * (1 + methods),
-                  "rows");
-  bool is_headed = arguments.json;
+  ProgressBar bar(
+      "bench",
+      CountBenchSteps(bench, AntialiasingSceneNames().size(), AntialiasingBenchMethods().size()),
+      "rows");
+  const bool json = arguments.pictures.json;
+  BenchTable table(json ? "" : kAntialiasingHead);
   return RunAntialiasingBench(
       bench, [&] { bar.Advance(); },
       [&](const AntialiasingBenchRow& row) {
-        if (!is_headed) std::cout << kAntialiasingHead;
-        is_headed = true;
-        std::cout << (arguments.json ? AntialiasingRowJson(row).dump() + '\n'
-                                     : AntialiasingRowText(row))
-                  << std::flush;
+        table.Print(json ? AntialiasingRowJson(row).dump() + '\n' : AntialiasingRowText(row));
       });
 }
 
@@ -100,36 +81,22 @@ void AddAntialiasingBenchCommand(CLI::App& bench, CommandResult& result) {
       "antialiasing", "Every antialiasing method against 64 shaded places a pixel");
   command->footer(kAntialiasingBenchExamples);
   auto arguments = std::make_shared<AntialiasingBenchArguments>();
-  const auto scenes = AntialiasingSceneNames();
-  command->add_option("--scenes", arguments->bench.scenes, "Which scenes; all by default")
-      ->delimiter(',')
-      ->check(CLI::IsMember(std::vector<std::string>(scenes.begin(), scenes.end())))
-      ->type_name("NAME,...");
+  PictureBenchArguments& pictures = arguments->pictures;
+  AddPictureBenchOptions(*command, AntialiasingSceneNames(),
+                         "Small pictures, one round, two frames", &pictures);
   std::vector<std::string> methods;
   for (const AntialiasingBenchMethod& method : AntialiasingBenchMethods()) {
     methods.emplace_back(method.name);
   }
-  command->add_option("--methods", arguments->bench.methods, "Which methods; all by default")
+  command->add_option("--methods", pictures.bench.methods, "Which methods; all by default")
       ->delimiter(',')
       ->check(CLI::IsMember(methods))
       ->type_name("NAME,...");
-  CLI::Option* size = command->add_option("--size", arguments->size,
-                                          "Size of the pictures, WIDTHxHEIGHT; default 320x240");
-  CLI::Option* rounds =
-      command
-          ->add_option("--rounds", arguments->bench.rounds,
-                       "Rounds in which all methods are timed in turn; the median counts")
-          ->check(CLI::Range(1, 1000))
-          ->capture_default_str();
   command
       ->add_option("--shader-dir", arguments->shader_directory,
                    "Shaders of this folder replace those built in")
       ->check(CLI::ExistingDirectory)
       ->type_name("DIR");
-  command->add_flag("--quick", arguments->quick, "Small pictures, one round, two frames")
-      ->excludes(size)
-      ->excludes(rounds);
-  command->add_flag("--json", arguments->json, "One JSON object a row");
   command->callback([arguments, &result] { result.status = RunAntialiasing(*arguments); });
 }
 

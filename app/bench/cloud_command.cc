@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "app/bench/cloud_bench.h"
+#include "app/bench/picture_bench.h"
 #include "app/terminal/progress_bar.h"
 
 namespace pleinair::app {
@@ -18,6 +18,11 @@ constexpr const char* kCloudBenchExamples =
     "Examples:\n"
     "  pleinair bench clouds --quick\n"
     "  pleinair bench clouds --json > clouds.jsonl";
+
+constexpr const char* kCloudHead =
+    "case                  method                   R       T  T direct  reference     error       "
+    " "
+    "ms\n";
 
 struct CloudBenchArguments {
   bool quick = false, json = false;
@@ -43,14 +48,9 @@ std::string CloudRowText(const CloudBenchRow& row, bool json) {
 Result<void> RunClouds(const CloudBenchArguments& arguments) {
   constexpr int kPhotons = 100'000, kFewPhotons = 4'000;
   ProgressBar bar("bench", CountCloudBenchRows(), "rows");
-  bool is_headed = arguments.json;
+  BenchTable table(arguments.json ? "" : kCloudHead);
   RunCloudBench(arguments.quick ? kFewPhotons : kPhotons, [&](const CloudBenchRow& row) {
-    if (!is_headed) {
-      std::cout << "case                  method                   R       T  T direct  reference"
-                   "     error        ms\n";
-    }
-    is_headed = true;
-    std::cout << CloudRowText(row, arguments.json) << std::flush;
+    table.Print(CloudRowText(row, arguments.json));
     bar.Advance();
   });
   return {};
