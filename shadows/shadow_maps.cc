@@ -71,8 +71,11 @@ Result<ShadowMaps> ShadowMaps::Create(const ShadowMapOptions& options) {
   maps.depth_.SetFilter(GL_NEAREST, GL_NEAREST);
   PLEINAIR_ASSIGN_OR_RETURN(maps.uniform_buffer_, gl::GlBuffer::Create(sizeof(ShadowUniforms)));
   maps.no_vertices_ = gl::GlVertexArray::Create();
+  if (options.method == ShadowMethod::kSunDisc) {
+    PLEINAIR_ASSIGN_OR_RETURN(maps.edges_, EdgeMap::Create(size, options.partitions));
+  }
   PLEINAIR_ASSIGN_OR_RETURN(
-      maps.depth_program_,
+      maps.programs_.depth,
       gl::GlProgram::Create({.vertex = "shadows/shaders/shadow_depth.vert",
                              .fragment = "shadows/shaders/shadow_depth.frag"}));
   for (int i = 0; i < options.partitions; ++i) {
@@ -94,9 +97,9 @@ Result<void> ShadowMaps::CreateMoments(int size) {
   const bool warped = Content() == MapContent::kWarpedMoments;
   std::vector<std::string> defines{"FROM_DEPTH"};
   if (warped) defines.emplace_back("WARPED");
-  PLEINAIR_ASSIGN_OR_RETURN(first_program_,
+  PLEINAIR_ASSIGN_OR_RETURN(programs_.first,
                             FullscreenProgram("shadows/shaders/shadow_moments.frag", defines));
-  PLEINAIR_ASSIGN_OR_RETURN(second_program_,
+  PLEINAIR_ASSIGN_OR_RETURN(programs_.second,
                             FullscreenProgram("shadows/shaders/shadow_moments.frag", {}));
   const GLenum format = warped ? GL_RGBA32F : GL_RG32F;
   PLEINAIR_ASSIGN_OR_RETURN(moments_,
@@ -115,8 +118,8 @@ Result<void> ShadowMaps::CreateMoments(int size) {
 
 Result<void> ShadowMaps::CreateBounds(int size) {
   PLEINAIR_ASSIGN_OR_RETURN(
-      first_program_, FullscreenProgram("shadows/shaders/shadow_bounds.frag", {"FROM_DEPTH"}));
-  PLEINAIR_ASSIGN_OR_RETURN(second_program_,
+      programs_.first, FullscreenProgram("shadows/shaders/shadow_bounds.frag", {"FROM_DEPTH"}));
+  PLEINAIR_ASSIGN_OR_RETURN(programs_.second,
                             FullscreenProgram("shadows/shaders/shadow_bounds.frag", {}));
   const int levels = PyramidLevels(size);
   PLEINAIR_ASSIGN_OR_RETURN(bounds_, gl::GlTexture::Create2DArray(GL_RG32F, size / 4, size / 4,
@@ -214,6 +217,7 @@ Result<int> ShadowMaps::Redraw(std::span<const ShadowCaster> casters, const Ligh
     texel_from_marker = glm::transpose(texel_from_marker);
     SliceKey key{window, depth_min, depth_max, axes.to_sun, {}};
     std::vector<ChangingCaster> changing;
+    std::vector<EdgeMap::Caster> outlines;
     for (const ShadowCaster& caster : casters) {
       const LightWindow footprint = Project(axes, caster.bounds).window;
       if (!footprint.Overlaps(window)) continue;
@@ -240,7 +244,10 @@ Result<int> ShadowMaps::Redraw(std::span<const ShadowCaster> casters, const Ligh
         continue;
       }
       key.casters.push_back({caster.vertices->id(), caster.index_count, caster.marker_from_model,
-                             caster.revision, caster.sun_side_only});
+                             caster.revision, caster.sun_side_only, caster.edges.data()});
+      if (caster.index_count == 0) continue;
+      outlines.push_back({caster.edges, texel_from_marker * caster.marker_from_model,
+                          glm::inverse(glm::dmat3(caster.marker_from_model)) * axes.to_sun});
     }
 
     uniforms_.slices[i] = {
@@ -255,6 +262,9 @@ Result<int> ShadowMaps::Redraw(std::span<const ShadowCaster> casters, const Ligh
       slice.drawn = std::move(key);
       DrawDepth(i, axes);
       if (UsesMoments()) DrawMoments(i);
+      if (options_.method == ShadowMethod::kSunDisc) {
+        edges_.Draw(outlines, options_.resolutions[i], i);
+      }
     }
     const int side = options_.resolutions[i];
     const TexelRect changed = slice.changing.Draw(changing, is_new, side, i, depth_);
@@ -289,11 +299,11 @@ void ShadowMaps::DrawDepth(int slice, const LightAxes& axes) {
   glDepthFunc(GL_LESS);
   glFrontFace(GL_CCW);
   glEnable(GL_DEPTH_CLAMP);
-  depth_program_.Use();
+  programs_.depth.Use();
   const glm::dmat4 clip_from_marker =
       ClipFromMarker(axes, key.window, key.depth_min, key.depth_max);
   for (const CasterKey& caster : key.casters) {
-    depth_program_.Set("clip_from_model", glm::mat4(clip_from_marker * caster.marker_from_model));
+    programs_.depth.Set("clip_from_model", glm::mat4(clip_from_marker * caster.marker_from_model));
     (caster.sun_side_only ? glEnable : glDisable)(GL_CULL_FACE);
     glBindVertexArray(caster.vertices);
     glDrawElements(GL_TRIANGLES, caster.index_count, GL_UNSIGNED_INT, nullptr);
@@ -307,9 +317,9 @@ void ShadowMaps::DrawBounds(int slice) {
   glDisable(GL_DEPTH_TEST);
   no_vertices_.Bind();
   depth_.Bind(0);
-  first_program_.Use();
-  first_program_.Set("slice", slice);
-  second_program_.Set("slice", slice);
+  programs_.first.Use();
+  programs_.first.Set("slice", slice);
+  programs_.second.Set("slice", slice);
   const std::vector<gl::GlFramebuffer>& targets = slices_[slice].bounds_targets;
   for (int level = 0; level < static_cast<int>(targets.size()); ++level) {
     targets[level].Bind();
@@ -317,7 +327,7 @@ void ShadowMaps::DrawBounds(int slice) {
     glViewport(0, 0, side, side);
     if (level == 1) {
       bounds_.Bind(0);
-      second_program_.Use();
+      programs_.second.Use();
     }
     if (level > 0) {
       // Reading and rendering to the same texture is defined only for levels excluded from
@@ -355,8 +365,8 @@ void ShadowMaps::DrawMoments(int slice) {
                                               options_.min_blur_texels, options_.max_blur_texels)));
     glDrawArrays(GL_TRIANGLES, 0, 3);
   };
-  pass(first_program_, blur_.target, depth_, slice, true);
-  pass(second_program_, slices_[slice].moments_target, blur_.texture, 0, false);
+  pass(programs_.first, blur_.target, depth_, slice, true);
+  pass(programs_.second, slices_[slice].moments_target, blur_.texture, 0, false);
   glEnable(GL_DEPTH_TEST);
 }
 
@@ -375,6 +385,7 @@ void ShadowMaps::Bind(int set) const {
   (UsesMoments() ? moments_ : depth_).Bind(kTextureUnit + 2 * set);
   const bool bounds = Content() == MapContent::kDepthBounds;
   (bounds ? bounds_ : UsesMoments() ? moments_ : depth_).Bind(kTextureUnit + 2 * set + 1);
+  if (options_.method == ShadowMethod::kSunDisc) edges_.Bind(kEdgeTextureUnit + set);
 }
 
 }  // namespace pleinair::shadows

@@ -17,9 +17,11 @@
 #include "gl/program.h"
 #include "gl/texture.h"
 #include "gl/vertex_array.h"
+#include "shadows/caster_edges.h"
 #include "shadows/changing_depth.h"
 #include "shadows/depth_bounds.h"
 #include "shadows/depth_raster.h"
+#include "shadows/edge_map.h"
 #include "shadows/light_window.h"
 #include "shadows/shadow_map_options.h"
 #include "shadows/shadow_method.h"
@@ -42,6 +44,9 @@ struct ShadowCaster {
   /// place of `vertices`, on the processor and with the sun's side only (depth_raster.h); a new
   /// shape then redraws nothing else. The memory must outlive its use. Empty: not used.
   TriangleSpan triangles;
+  /// Its edges, of a caster without `triangles`. Narrow penumbrae then end where it does, and not
+  /// at whole texels. They belong to `revision`, and must outlive the caster's use.
+  std::span<const CasterEdge> edges = {};
 };
 
 /// Z-partitioned shadow maps of the sun (Kolivand & Sunar 2014, with the deviations explained in
@@ -105,6 +110,7 @@ class ShadowMaps {
     glm::dmat4 marker_from_model{1.0};
     std::uint64_t revision = 0;
     bool sun_side_only = false;
+    const CasterEdge* edges = nullptr;
     bool operator==(const CasterKey&) const = default;
   };
   struct SliceKey {
@@ -129,6 +135,12 @@ class ShadowMaps {
     gl::GlFramebuffer target;
   };
 
+  struct Programs {
+    gl::GlProgram depth;
+    gl::GlProgram first;   // Depth to bounds, or to moments blurred along u.
+    gl::GlProgram second;  // Bounds to bounds, or moments blurred along v.
+  };
+
   ShadowMaps() = default;
   MapContent Content() const { return ContentOf(options_); }
   bool UsesMoments() const {
@@ -150,11 +162,10 @@ class ShadowMaps {
   gl::GlTexture depth_;    // Array of partitions, 0…1 over the depth range.
   gl::GlTexture bounds_;   // Pyramid of minimum and maximum depth, from a quarter of the size down.
   gl::GlTexture moments_;  // Moment methods.
+  EdgeMap edges_;          // The sun's disc.
   BlurBuffer blur_;
   gl::GlVertexArray no_vertices_;
-  gl::GlProgram depth_program_;
-  gl::GlProgram first_program_;   // Depth to bounds, or to moments blurred along u.
-  gl::GlProgram second_program_;  // Bounds to bounds, or moments blurred along v.
+  Programs programs_;
   std::vector<Slice> slices_;
 };
 

@@ -9,6 +9,8 @@ constexpr int kMaxPartitions = 4;
 /// First binding points used by shadow_visibility.glsl; each set uses one block and two textures.
 constexpr int kUniformBlockBinding = 8;
 constexpr int kTextureUnit = 8;
+/// First unit of the textures with the casters' edges, one a set.
+constexpr int kEdgeTextureUnit = 24;
 
 /// Mirrors ShadowSlice in shadows/shaders/shadow_visibility.glsl (std140).
 struct ShadowSliceUniforms {

@@ -1,6 +1,7 @@
 #include "compositor/surfaces/scene_surfaces.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -56,6 +57,16 @@ bool HasOneColor(const std::vector<VertexDetail>& details) {
       details, [&](const VertexDetail& detail) { return detail.color == details[0].color; });
 }
 
+std::vector<OutlineEdge> EdgesOfMesh(const LitMesh& mesh) {
+  const auto vectors = [](const std::vector<std::array<float, 3>>& arrays) {
+    std::vector<glm::vec3> converted;
+    converted.reserve(arrays.size());
+    for (const auto& a : arrays) converted.emplace_back(a[0], a[1], a[2]);
+    return converted;
+  };
+  return OutlineOf(vectors(mesh.positions), vectors(mesh.normals), mesh.indices);
+}
+
 }  // namespace
 
 Result<SceneSurfaces> SceneSurfaces::Create(const std::vector<PlacedModel>& scene) {
@@ -106,13 +117,15 @@ Result<void> SceneSurfaces::SetSurfaces(const std::vector<LitMesh>& lit) {
   placement_.Clear();  // It refers to the surfaces.
   surfaces_.clear();
   surfaces_.reserve(lit.size());
+  outlines_.edges.reserve(lit.size());
   reduction_.Clear();
   std::vector<const LitMesh*> phantoms, objects;
   std::vector<float> green_albedos, object_numbers;
   for (const LitMesh& mesh : lit) {
     PLEINAIR_ASSIGN_OR_RETURN(SurfaceBuffers surface, SurfaceBuffers::Create(mesh));
     surfaces_.push_back(std::move(surface));
-    placement_.Add(mesh);
+    outlines_.edges.push_back(EdgesOfMesh(mesh));
+    placement_.Add(mesh, outlines_.edges.back());
     if (const PlacedModel& placed = materials_.Placed(mesh.placed_model);
         placed.playback.animation) {
       placement_.IncludeShapes(BoundsOfShapes(placed));
@@ -151,7 +164,10 @@ void SceneSurfaces::Move(int placed_model, const Mat3& linear, Vec3 translation_
 }
 
 void SceneSurfaces::SetShapes(const std::vector<LitMesh>& lit, std::size_t first) {
-  if (first != outlines_.first_changing) outlines_ = {.first_changing = first};
+  if (first != outlines_.first_changing) {
+    outlines_.first_changing = first;
+    outlines_.have_all = false;
+  }
   std::size_t object = 0;
   for (std::size_t i = 0; i < surfaces_.size(); ++i) {
     const bool is_drawn = surfaces_[i].IsDrawnObject();
@@ -265,32 +281,33 @@ void SceneSurfaces::DrawObjects(const gl::GlProgram& program) const {
   }
 }
 
-void SceneSurfaces::FindOutlines() {
-  outlines_.phantoms.clear();
-  outlines_.objects.clear();
+void SceneSurfaces::FindChangingOutlines() {
+  std::size_t phantom = 0, object = 0;
   for (std::size_t i = 0; i < surfaces_.size(); ++i) {
-    const SurfaceBuffers& surface = surfaces_[i];
     const bool changes = i >= outlines_.first_changing;
-    if (surface.is_phantom()) {
-      const AffectedTriangles& phantom = reduction_.phantoms()[outlines_.phantoms.size()];
-      outlines_.phantoms.push_back(
-          {OutlineOf(phantom.positions(), phantom.normals(), phantom.indices(), changes), false});
-    } else if (surface.IsDrawnObject()) {
-      const std::size_t at = outlines_.objects.size();
-      const SunFacingTriangles& object = reduction_.objects()[at];
-      outlines_.objects.push_back(
-          {OutlineOf(reduction_.object_positions(at), object.normals(), object.indices(), changes),
-           materials_.HasHoles(surface.placed_model(), surface.material())});
+    if (surfaces_[i].is_phantom()) {
+      const AffectedTriangles& mesh = reduction_.phantoms()[phantom++];
+      if (changes) {
+        outlines_.edges[i] = OutlineOf(mesh.positions(), mesh.normals(), mesh.indices(), true);
+      }
+    } else if (surfaces_[i].IsDrawnObject()) {
+      const std::size_t at = object++;
+      const SunFacingTriangles& mesh = reduction_.objects()[at];
+      if (changes) {
+        outlines_.edges[i] =
+            OutlineOf(reduction_.object_positions(at), mesh.normals(), mesh.indices(), true);
+      }
     }
   }
-  outlines_.are_found = true;
+  outlines_.have_all = true;
 }
 
 std::vector<DrawnMesh> SceneSurfaces::DrawnMeshes() {
-  if (!outlines_.are_found) FindOutlines();
+  if (!outlines_.have_all) FindChangingOutlines();
   std::vector<DrawnMesh> phantoms, objects;
   phantoms.reserve(surfaces_.size());
-  for (const SurfaceBuffers& surface : surfaces_) {
+  for (std::size_t i = 0; i < surfaces_.size(); ++i) {
+    const SurfaceBuffers& surface = surfaces_[i];
     const glm::mat4 moved(placement_.MovedBy(surface.placed_model()));
     if (surface.is_phantom()) {
       const std::size_t at = phantoms.size();
@@ -299,20 +316,21 @@ std::vector<DrawnMesh> SceneSurfaces::DrawnMeshes() {
                           .indices = phantom.indices(),
                           .ends = std::span(phantom.ends()).first(AffectedTriangles::kNothing),
                           .components = phantom_buffer_.components(at),
-                          .outline = outlines_.phantoms[at].edges,
+                          .outline = outlines_.edges[i],
                           .first_id = static_cast<std::uint32_t>(phantom_buffer_.first_id(at))});
     } else if (surface.IsDrawnObject()) {
       const std::size_t at = objects.size();
       const SunFacingTriangles& object = reduction_.objects()[at];
-      objects.push_back({.positions = reduction_.object_positions(at),
-                         .indices = object.indices(),
-                         .ends = object.ends(),
-                         .components = object_buffer_.components(at),
-                         .outline = outlines_.objects[at].edges,
-                         .marker_from_lit = moved,
-                         .first_id = static_cast<std::uint32_t>(object_buffer_.first_id(at)),
-                         .is_object = true,
-                         .has_holes = outlines_.objects[at].has_holes});
+      objects.push_back(
+          {.positions = reduction_.object_positions(at),
+           .indices = object.indices(),
+           .ends = object.ends(),
+           .components = object_buffer_.components(at),
+           .outline = outlines_.edges[i],
+           .marker_from_lit = moved,
+           .first_id = static_cast<std::uint32_t>(object_buffer_.first_id(at)),
+           .is_object = true,
+           .has_holes = materials_.HasHoles(surface.placed_model(), surface.material())});
     }
   }
   phantoms.insert(phantoms.end(), objects.begin(), objects.end());

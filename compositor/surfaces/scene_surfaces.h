@@ -72,25 +72,20 @@ class SceneSurfaces {
   const VisibilityBuffer& object_triangles() const { return object_buffer_; }
   /// Indexed by the values of object_triangles().
   const MaterialTable& object_materials() const { return object_materials_; }
-  /// The sorted surfaces in the order of drawing: DrawPhantoms(), then DrawObjects(). Finds their
-  /// outlines when first called after a change.
+  /// The sorted surfaces in the order of drawing: DrawPhantoms(), then DrawObjects().
   std::vector<DrawnMesh> DrawnMeshes();
   /// Draws the geometry of all surfaces with `program`, which must be in use.
   void Draw(const gl::GlProgram& program) const;
 
  private:
-  /// What is known of a surface's edges.
-  struct Outline {
-    std::vector<OutlineEdge> edges;
-    bool has_holes = false;
-  };
   /// Edges by which the processor finds silhouettes.
   struct Outlines {
-    std::vector<Outline> phantoms = {}, objects = {};
-    std::size_t first_changing = ~std::size_t{0};  // Surfaces from here on change their shape.
-    bool are_found = false;
+    std::vector<std::vector<OutlineEdge>> edges = {};  // One a surface.
+    std::size_t first_changing = ~std::size_t{0};      // Surfaces from here on change their shape.
+    bool have_all = true;                              // Whether the changing ones have all edges.
   };
-  void FindOutlines();
+  /// Finds all edges of the surfaces that change their shape.
+  void FindChangingOutlines();
   /// Returns whether the surfaces are those of `lit`, so that only their light is new.
   bool HasSurfacesOf(const std::vector<LitMesh>& lit) const;
   Result<void> SetSurfaces(const std::vector<LitMesh>& lit);

@@ -1,6 +1,32 @@
 #include "compositor/surfaces/surface_placement.h"
 
 namespace pleinair::compositor {
+namespace {
+
+/// Where the shadow of a mesh may end. Creases that are concave are left out.
+std::vector<shadows::CasterEdge> EdgesOf(const LitMesh& mesh,
+                                         std::span<const OutlineEdge> outline) {
+  const auto at = [&](std::uint32_t vertex) {
+    const auto& p = mesh.positions[vertex];
+    return glm::vec3(p[0], p[1], p[2]);
+  };
+  std::vector<shadows::CasterEdge> edges;
+  edges.reserve(outline.size());
+  for (const OutlineEdge& edge : outline) {
+    const glm::vec3 a = at(edge.a), b = at(edge.b);
+    const glm::vec3 normal = glm::cross(b - a, at(edge.corner) - a);
+    glm::vec3 other(0.0F);
+    if (edge.other_corner != OutlineEdge::kNone) {
+      const glm::vec3 to_other = at(edge.other_corner) - a;
+      if (glm::dot(normal, to_other) > 0.0F) continue;
+      other = glm::cross(to_other, b - a);
+    }
+    edges.push_back({a, b, normal, other});
+  }
+  return edges;
+}
+
+}  // namespace
 
 void SurfacePlacement::Clear() {
   casters_.clear();
@@ -9,8 +35,9 @@ void SurfacePlacement::Clear() {
   ++revision_;
 }
 
-void SurfacePlacement::Add(const LitMesh& mesh) {
+void SurfacePlacement::Add(const LitMesh& mesh, std::span<const OutlineEdge> outline) {
   Shape& shape = shapes_.emplace_back();
+  if (mesh.role != MeshRole::kRenderOnly) shape.edges = EdgesOf(mesh, outline);
   shape.revision = revision_;
   for (const auto& p : mesh.positions) shape.bounds.Include({p[0], p[1], p[2]});
 }
@@ -57,6 +84,7 @@ void SurfacePlacement::Place(std::span<const SurfaceBuffers> surfaces) {
     caster.revision = shapes_[i].revision;
     caster.sun_side_only = shapes_[i].changes;
     caster.triangles = shapes_[i].triangles;
+    if (!shapes_[i].changes && caster.triangles.indices.empty()) caster.edges = shapes_[i].edges;
     caster.marker_from_model = MovedBy(surface.placed_model());
     const shadows::Box& lit = shapes_[i].bounds;
     for (int corner = 0; corner < 8; ++corner) {

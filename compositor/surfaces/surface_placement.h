@@ -9,6 +9,7 @@
 #include "base/vector.h"
 #include "compositor/light/lit_mesh.h"
 #include "compositor/models/model_frame.h"
+#include "compositor/surfaces/mesh_outline.h"
 #include "compositor/surfaces/surface_buffers.h"
 #include "shadows/shadow_maps.h"
 
@@ -20,8 +21,8 @@ class SurfacePlacement {
  public:
   /// Removes all surfaces. Shadow maps treat surfaces added later as new ones.
   void Clear();
-  /// Adds the next surface, in order.
-  void Add(const LitMesh& mesh);
+  /// Adds the next surface, in order. `outline`: of the mesh, as OutlineOf().
+  void Add(const LitMesh& mesh, std::span<const OutlineEdge> outline);
   /// Extends the bounds of the surface added last to those of all its shapes.
   void IncludeShapes(const ModelBounds& shapes);
   /// Gives a surface another shape; applies from the next Reset(), Move() or Refresh() on. Its
@@ -58,6 +59,7 @@ class SurfacePlacement {
     std::uint64_t revision = 0;  // As shadows::ShadowCaster.
     bool changes = false;
     shadows::TriangleSpan triangles;  // After SetShape().
+    std::vector<shadows::CasterEdge> edges;
   };
 
   std::vector<Shape> shapes_;      // One per surface.

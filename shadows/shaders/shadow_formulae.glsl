@@ -52,6 +52,30 @@ float ShadowPlaneFacing(float facing) { return max(facing, kShadowSteepest); }
 // Depth tolerance of a plane that rises by `slope` from texel to texel.
 float ShadowRise(float slope, float facing) { return slope * min(facing / kShadowMaxRise, 1.0f); }
 
+// A line in a texel of a map: the unit vector from the texel's centre to it, and its distance in
+// texels. EdgeMap::Packed() (shadows/edge_map.h) packs it; 0 is no line.
+vec3 EdgeLine(uint code) {
+  vec2 steps = vec2(float((code >> 10) & 2047u), float((code >> 21) & 2047u));
+  return vec3(steps / 1023.0f - 1.0f, float(code & 1023u) * (0.75f / 1023.0f));
+}
+
+// Share of a box that lies beyond a line. `half_sides`: of the box along the axes; `line`: the unit
+// vector across it, and its signed distance from the box's centre along that. It is the integral of
+// a step over a box, which is a spline of the second order.
+float ShareBeyond(vec2 half_sides, vec3 line) {
+  vec2 reach = max(abs(vec2(line.x, line.y)) * half_sides, 1e-3f);
+  float sum = reach.x + reach.y, difference = reach.x - reach.y;
+  vec4 t = max(vec4(sum, difference, -difference, -sum) - line.z, 0.0f);
+  return clamp((t.x * t.x - t.y * t.y - t.z * t.z + t.w * t.w) / (8.0f * reach.x * reach.y), 0.0f, 1.0f);
+}
+
+// Share of a box beyond both of two lines, from the share beyond each. It is all of the smaller one
+// where they are parallel, and none where they face away from each other. It is the product where
+// they are perpendicular, which is exact along the axes. `cosine`: between their vectors.
+float ShareBeyondBoth(float first, float second, float cosine) {
+  return mix(first * second, cosine > 0.0f ? min(first, second) : 0.0f, abs(cosine));
+}
+
 // Standard normal distribution function by the logistic fit of Bowling et al. 2009, "A logistic
 // approximation to the cumulative normal distribution", Eq. (10): error at most 1.4e-4.
 float NormalCdf(float x) {

@@ -1,6 +1,7 @@
 // Ours: percentage-closer soft shadows with the geometry of the sun.
 #ifndef PLEINAIR_SHADOW_SUN_DISC
 #define PLEINAIR_SHADOW_SUN_DISC
+#include "shadows/shaders/shadow_caster_edges.glsl"
 #include "shadows/shaders/shadow_formulae.glsl"
 #include "shadows/shaders/shadow_lookup.glsl"
 
@@ -42,17 +43,17 @@ const mat2 kGoldenTurn = mat2(-0.73736888, 0.67549029, -0.67549029, -0.73736888)
 const float kPixelVariance = 1.0 / 11.0;
 
 // Half-widths of the box over texels with the same standard deviation as disc and pixel together: a
-// disc of radius ρ has the variance ρ²/4 along an axis, a box of ±k has k²/3. The texels' own 1/12
-// is added: without it edges of large texels flicker.
+// disc of radius ρ has the variance ρ²/4 along an axis, a box of ±k has k²/3.
 vec2 ShadowBoxWidth(vec4 size, ShadowReceiver r, float height, float tan_radius) {
   vec2 disc = height * tan_radius / size.xy;
   vec2 pixel = kPixelVariance * (r.step_x * r.step_x + r.step_y * r.step_y);
-  return sqrt(max(3.0 * (0.25 * disc * disc + pixel), 0.25));
+  return sqrt(3.0 * (0.25 * disc * disc + pixel));
 }
 
-// Visibility from the 4×4 texels around a point: a box whose width follows from the mean height of
-// their blockers. The widest box that fits is ±1½ texels.
-float ShadowDense(int set, int slice, vec4 size, ShadowReceiver r, float tan_radius) {
+// Visibility from the 4×4 texels around a point: a box whose width follows from the mean `height`
+// of their blockers, the `occluders`. The widest box that fits is ±1½ texels.
+float ShadowDense(int set, int slice, vec4 size, ShadowReceiver r, float tan_radius,
+                  out float height, out float occluders) {
   vec2 corner = floor(r.texel - 0.5) - 1.0;
   vec4 blocks[4];
   vec4 heights = vec4(0.0), blockers = vec4(0.0);
@@ -63,7 +64,8 @@ float ShadowDense(int set, int slice, vec4 size, ShadowReceiver r, float tan_rad
     heights += blocks[i] * quad.height;
     blockers += blocks[i];
   }
-  float height = max(dot(heights, vec4(1.0)), 0.0) / max(dot(blockers, vec4(1.0)), 1.0);
+  occluders = dot(blockers, vec4(1.0));
+  height = max(dot(heights, vec4(1.0)), 0.0) / max(occluders, 1.0);
   vec2 k = clamp(ShadowBoxWidth(size, r, height, tan_radius), vec2(0.5), vec2(1.5));
   vec2 offset = corner + 0.5 - r.texel;
   float blocked = 0.0;
@@ -126,8 +128,8 @@ float ShadowDiscVisibility(int set, int slice, vec4 size, ShadowReceiver r, floa
 
   bool umbra = bounds.y < r.depth - slope_texel * bounds.z - r.bias;
   // Boxes of more than ±1½ texels do not fit into 4×4 texels.
-  vec2 pixel = sqrt(3.0 * kPixelVariance) * (abs(r.step_x) + abs(r.step_y));
-  vec2 widest = 0.75 * search_m * search_m / (size.xy * size.xy) + pixel * pixel;
+  vec2 widest = 0.75 * search_m * search_m / (size.xy * size.xy) +
+                3.0 * kPixelVariance * (r.step_x * r.step_x + r.step_y * r.step_y);
   bool soft = max(widest.x, widest.y) > 2.25 && !umbra && wanted;
 
   // Mean height of the blockers that rays from the pixel to the disc can hit. Loops with a count of
@@ -154,10 +156,12 @@ float ShadowDiscVisibility(int set, int slice, vec4 size, ShadowReceiver r, floa
     blockers += weight * dot(blocks, vec4(1.0));
   } while (float(++i) < search_count);
   soft = blockers > 0.0;
-  float spread = ShadowEvenSpread(set, slice, size, r, tan_radius, height_sum / max(blockers, 1e-3),
-                                  soft);
-  float dense = ShadowDense(set, slice, size, r, tan_radius);
-  return soft ? spread : dense;
+  float height = height_sum / max(blockers, 1e-3), dense_height, occluders;
+  float spread = ShadowEvenSpread(set, slice, size, r, tan_radius, height, soft);
+  float dense = ShadowDense(set, slice, size, r, tan_radius, dense_height, occluders);
+  bool at_edge = soft ? spread > 0.0 && spread < 1.0 : occluders > 0.0 && occluders < 16.0;
+  vec2 k = ShadowBoxWidth(size, r, soft ? height : dense_height, tan_radius);
+  return ShadowAtEdges(set, slice, size, r, k, at_edge, soft ? spread : dense);
 }
 
 #endif

@@ -105,7 +105,8 @@ float ShadowInSlice(int set, ShadowPlace place, vec3 normal, vec3 step_x, vec3 s
 #elif defined(SUN_DISC_SAMPLE)
   return ShadowTap(set, place.slice, place.size, r, r.texel, -1e30);
 #elif defined(SUN_DISC_BOX)
-  return ShadowDense(set, place.slice, place.size, r, shadow_sets[set].to_sun.w);
+  float height, occluders;
+  return ShadowDense(set, place.slice, place.size, r, shadow_sets[set].to_sun.w, height, occluders);
 #else
   return ShadowDiscVisibility(set, place.slice, place.size, r, shadow_sets[set].to_sun.w, wanted);
 #endif

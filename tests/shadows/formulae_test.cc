@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "gl/glsl_as_cpp.h"
+#include "shadows/caster_edges.h"
+#include "shadows/edge_map.h"
 #include "shadows/light_window.h"
 
 namespace pleinair::shadows {
@@ -30,7 +33,8 @@ TEST(VogelDisc, SpreadsEvenlyOverTheDisc) {
 
 TEST(ShadowBoxShares, AddUpToTheBoxWhereverItLies) {
   for (const float k : {0.5F, 1.3F, 2.5F}) {
-    for (float place = 0.0F; place < 1.0F; place += 0.13F) {
+    for (int step = 0; step < 8; ++step) {
+      const float place = 0.13F * static_cast<float>(step);
       double sum = 0.0, mean = 0.0;
       for (int quad = -3; quad < 3; ++quad) {
         const float offset = 2.0F * static_cast<float>(quad) + 0.5F - place;
@@ -48,6 +52,62 @@ TEST(ShadowBoxShares, AddUpToTheBoxWhereverItLies) {
   const glm::vec2 bilinear = glsl::ShadowBoxShares(-0.3F, 0.5F);
   EXPECT_NEAR(bilinear.x, 0.7F, 1e-6F);
   EXPECT_NEAR(bilinear.y, 0.3F, 1e-6F);
+}
+
+/// Area of a box beyond a line, by many points of it.
+double AreaBeyond(const glm::dvec2& half_sides, const glm::dvec2& normal, double away) {
+  constexpr int kSteps = 400;
+  int beyond = 0;
+  for (int i = 0; i < kSteps; ++i) {
+    for (int j = 0; j < kSteps; ++j) {
+      const glm::dvec2 at =
+          (2.0 * (glm::dvec2(i, j) + 0.5) / static_cast<double>(kSteps) - 1.0) * half_sides;
+      beyond += glm::dot(at, normal) > away ? 1 : 0;
+    }
+  }
+  return static_cast<double>(beyond) / (kSteps * kSteps);
+}
+
+TEST(ShareBeyond, IsTheAreaOfABoxBeyondALine) {
+  for (const glm::dvec2 half_sides : {glm::dvec2(0.5, 0.5), {0.5, 0.1}, {0.03, 0.4}}) {
+    for (const double turn : {0.0, 0.3, 1.571, 2.2, 4.0}) {
+      const glm::dvec2 normal(std::cos(turn), std::sin(turn));
+      for (const double away : {-0.6, -0.2, 0.0, 0.05, 0.31, 0.8}) {
+        EXPECT_NEAR(glsl::ShareBeyond(glm::vec2(half_sides), glm::vec3(normal, away)),
+                    AreaBeyond(half_sides, normal, away), 0.005)
+            << half_sides.x << ' ' << turn << ' ' << away;
+      }
+    }
+  }
+  EXPECT_EQ(glsl::ShareBeyond(glm::vec2(0.0F), glm::vec3(1, 0, -0.3F)), 1.0F) << "no area";
+}
+
+TEST(ShareBeyond, OfTwoLinesIsNoLessThanNoneAndNoMoreThanTheSmaller) {
+  EXPECT_FLOAT_EQ(glsl::ShareBeyondBoth(0.3F, 0.4F, 1.0F), 0.3F) << "parallel";
+  EXPECT_FLOAT_EQ(glsl::ShareBeyondBoth(0.3F, 0.4F, -1.0F), 0.0F) << "a bar between them";
+  EXPECT_FLOAT_EQ(glsl::ShareBeyondBoth(0.3F, 0.4F, 0.0F), 0.12F) << "perpendicular";
+}
+
+TEST(EdgeLine, IsWhatTheEdgeMapPacks) {
+  for (double turn = 0.1; const double distance : {0.0, 0.2, 0.5, 0.7071}) {
+    turn += 1.3;
+    const glm::dvec2 normal(std::cos(turn), std::sin(turn));
+    const std::uint32_t packed = EdgeMap::Packed(normal, distance);
+    EXPECT_NE(packed, 0U) << "no line";
+    const glm::vec3 line = glsl::EdgeLine(packed);
+    EXPECT_NEAR(line.x, normal.x, 6e-4);
+    EXPECT_NEAR(line.y, normal.y, 6e-4);
+    EXPECT_NEAR(line.z, distance, 5e-4);
+  }
+}
+
+TEST(CasterEdge, IsPartOfTheOutlineBetweenASideInTheSunAndOneInTheShade) {
+  const CasterEdge between{{}, {1, 0, 0}, {0, 0, 1}, {0, 1, 0}};
+  EXPECT_FALSE(between.IsOutline({0, 0.6, 0.8}));
+  EXPECT_TRUE(between.IsOutline({0, -0.6, 0.8}));
+  EXPECT_FALSE(between.IsOutline({0, -0.6, -0.8})) << "both face away";
+  const CasterEdge border{{}, {1, 0, 0}, {0, 0, 1}, {}};
+  EXPECT_TRUE(border.IsOutline({0, -0.6, 0.8}));
 }
 
 TEST(ShadowWidestKernel, IsTheOneThatWindowsLeaveRoomFor) {
@@ -98,7 +158,8 @@ TEST(ShadowPlaneFacing, IsTheGroundsOwnDownToASunOfThreeTenthsOfADegree) {
 
 TEST(ShadowRise, IsThePlanesOwnAndFromASunOfOneDegreeDownNoMore) {
   float most = 0.0F;
-  for (float elevation = 89.0F; elevation > 0.31F; elevation *= 0.98F) {
+  for (int step = 0; step < 280; ++step) {
+    const float elevation = 89.0F * std::pow(0.98F, static_cast<float>(step));
     const float facing = std::sin(glm::radians(elevation));
     const float slope = std::cos(glm::radians(elevation)) / facing;  // Texels per texel.
     const float rise = glsl::ShadowRise(slope, facing);
@@ -112,7 +173,8 @@ TEST(ShadowRise, IsThePlanesOwnAndFromASunOfOneDegreeDownNoMore) {
 }
 
 TEST(NormalCdf, IsWithinThePublishedErrorOfItsFit) {
-  for (double x = -6.0; x <= 6.0; x += 0.01) {
+  for (int step = -600; step <= 600; ++step) {
+    const double x = 0.01 * step;
     EXPECT_NEAR(glsl::NormalCdf(static_cast<float>(x)), 0.5 * std::erfc(-x / std::sqrt(2.0)),
                 1.5e-4)
         << x;
