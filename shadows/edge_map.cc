@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <utility>
+#include <vector>
 
 namespace pleinair::shadows {
 namespace {
@@ -41,29 +42,7 @@ bool Clip(glm::dvec2& a, glm::dvec2& b, int axis, double side) {
   return true;
 }
 
-}  // namespace
-
-std::uint32_t EdgeMap::Packed(const glm::dvec2& to_line, double distance_texels) {
-  const auto component = [](double value) {
-    return static_cast<std::uint32_t>(
-        std::lround((std::clamp(value, -1.0, 1.0) + 1.0) * kNormalSteps));
-  };
-  const double share = std::clamp(distance_texels / kFarthest, 0.0, 1.0);
-  const auto distance = static_cast<std::uint32_t>(std::lround(share * kDistanceSteps));
-  return component(to_line.y) << (kDistanceBits + kNormalBits) |
-         component(to_line.x) << kDistanceBits | distance;
-}
-
-Result<EdgeMap> EdgeMap::Create(int side, int layers) {
-  EdgeMap map;
-  PLEINAIR_ASSIGN_OR_RETURN(map.texture_,
-                            gl::GlTexture::Create2DArray(GL_RG32UI, side, side, layers));
-  map.texture_.SetFilter(GL_NEAREST, GL_NEAREST);
-  map.has_lines_.assign(static_cast<std::size_t>(layers), true);  // Not cleared yet.
-  return map;
-}
-
-void EdgeMap::AddTo(Lines& lines, std::uint32_t line) const {
+void AddTo(EdgeMap::Lines& lines, std::uint32_t line) {
   for (std::uint32_t& slot : lines) {
     if (slot == 0) {
       slot = line;
@@ -74,10 +53,11 @@ void EdgeMap::AddTo(Lines& lines, std::uint32_t line) const {
   }
 }
 
-void EdgeMap::AddLine(glm::dvec2 a, glm::dvec2 b, int side) {
+/// Adds a line to the texels that it crosses; (0, 0) is a corner of the first one.
+void AddLine(glm::dvec2 a, glm::dvec2 b, int side, std::span<EdgeMap::Lines> texels) {
   const glm::dvec2 along = b - a;
   const double length = glm::length(along);
-  if (!(length > 1e-9)) return;
+  if (!(length > 1e-9 && std::isfinite(length))) return;
   const glm::dvec2 normal(-along.y / length, along.x / length);
   const double offset = glm::dot(normal, a);
   if (!Clip(a, b, 0, side) || !Clip(a, b, 1, side)) return;
@@ -96,28 +76,47 @@ void EdgeMap::AddLine(glm::dvec2 a, glm::dvec2 b, int side) {
       const glm::ivec2 at = steep ? glm::ivec2(j, i) : glm::ivec2(i, j);
       const double distance = offset - glm::dot(normal, glm::dvec2(at) + 0.5);
       const double sign = distance < 0.0 ? -1.0 : 1.0;
-      AddTo(texels_[static_cast<std::size_t>(at.y) * side + at.x],
-            Packed(sign * normal, sign * distance));
+      AddTo(texels[static_cast<std::size_t>(at.y) * side + at.x],
+            EdgeMap::Packed(sign * normal, sign * distance));
     }
   }
 }
 
-void EdgeMap::Draw(std::span<const Caster> casters, int side, int layer) {
+}  // namespace
+
+std::uint32_t EdgeMap::Packed(const glm::dvec2& to_line, double distance_texels) {
+  const auto component = [](double value) {
+    return static_cast<std::uint32_t>(
+        std::lround((std::clamp(value, -1.0, 1.0) + 1.0) * kNormalSteps));
+  };
+  const double share = std::clamp(distance_texels / kFarthest, 0.0, 1.0);
+  const auto distance = static_cast<std::uint32_t>(std::lround(share * kDistanceSteps));
+  return component(to_line.y) << (kDistanceBits + kNormalBits) |
+         component(to_line.x) << kDistanceBits | distance;
+}
+
+Result<EdgeMap> EdgeMap::Create(int side) {
+  EdgeMap map;
+  PLEINAIR_ASSIGN_OR_RETURN(map.texture_, gl::GlTexture::Create2D(GL_RG32UI, side, side));
+  map.texture_.SetFilter(GL_NEAREST, GL_NEAREST);
+  return map;
+}
+
+void EdgeMap::Draw(std::span<const Caster> casters) {
   const bool has_edges =
       std::ranges::any_of(casters, [](const Caster& caster) { return !caster.edges.empty(); });
-  const auto at = static_cast<std::size_t>(layer);
-  if (!has_edges && !has_lines_[at]) return;
-  texels_.assign(static_cast<std::size_t>(side) * side, Lines{});
+  if (!has_edges && !has_lines_) return;
+  const int side = texture_.width();
+  std::vector<Lines> texels(static_cast<std::size_t>(side) * side, Lines{});
   for (const Caster& caster : casters) {
     for (const CasterEdge& edge : caster.edges) {
       if (!edge.IsOutline(caster.to_sun)) continue;
       AddLine(glm::dvec2(caster.texel_from_model * glm::dvec4(edge.a, 1.0)),
-              glm::dvec2(caster.texel_from_model * glm::dvec4(edge.b, 1.0)), side);
+              glm::dvec2(caster.texel_from_model * glm::dvec4(edge.b, 1.0)), side, texels);
     }
   }
-  glTextureSubImage3D(texture_.id(), 0, 0, 0, layer, side, side, 1, GL_RG_INTEGER, GL_UNSIGNED_INT,
-                      texels_.data());
-  has_lines_[at] = has_edges;
+  texture_.Upload(GL_RG_INTEGER, GL_UNSIGNED_INT, texels.data());
+  has_lines_ = has_edges;
 }
 
 }  // namespace pleinair::shadows

@@ -4,16 +4,14 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
-#include <vector>
 
 #include "base/error.h"
-#include "base/image.h"
 #include "gl/texture.h"
 #include "shadows/caster_edges.h"
 
 namespace pleinair::shadows {
 
-/// Outlines of casters in the texels of shadow maps. A map has one depth a texel, so that edges of
+/// Outlines of casters in the texels of a shadow map. A map has one depth a texel, so that edges of
 /// shadows have steps of a texel. With the line at which its caster ends, a texel is divided where
 /// the shadow is: the silhouette maps of Sen, Cammarano and Hanrahan 2003, "Shadow silhouette
 /// maps", with lines in place of points.
@@ -23,8 +21,8 @@ class EdgeMap {
   /// shaders/shadow_formulae.glsl reads them; 0: none.
   using Lines = std::array<std::uint32_t, 2>;
 
-  /// A layer for each map. Errors (system): no memory.
-  static Result<EdgeMap> Create(int side, int layers);
+  /// For a map of `side` rows and columns. Errors (system): no memory.
+  static Result<EdgeMap> Create(int side);
 
   EdgeMap() = default;
 
@@ -34,20 +32,16 @@ class EdgeMap {
     glm::dmat4 texel_from_model{1.0};
     glm::dvec3 to_sun{0.0};  ///< In its coordinates.
   };
-  /// Draws the outlines into a layer's first `side` rows and columns.
-  void Draw(std::span<const Caster> casters, int side, int layer);
+  /// Draws the outlines in place of those before.
+  void Draw(std::span<const Caster> casters);
   void Bind(int unit) const { texture_.Bind(unit); }
 
   /// A line at a distance of at most 0.75 texel from a centre. `to_line`: from the centre, unit.
   static std::uint32_t Packed(const glm::dvec2& to_line, double distance_texels);
 
  private:
-  void AddLine(glm::dvec2 a, glm::dvec2 b, int side);
-  void AddTo(Lines& lines, std::uint32_t line) const;
-
   gl::GlTexture texture_;
-  std::vector<Lines> texels_;
-  std::vector<bool> has_lines_;  // One a layer.
+  bool has_lines_ = true;  // The texture is not cleared yet.
 };
 
 }  // namespace pleinair::shadows

@@ -72,7 +72,7 @@ Result<ShadowMaps> ShadowMaps::Create(const ShadowMapOptions& options) {
   PLEINAIR_ASSIGN_OR_RETURN(maps.uniform_buffer_, gl::GlBuffer::Create(sizeof(ShadowUniforms)));
   maps.no_vertices_ = gl::GlVertexArray::Create();
   if (options.method == ShadowMethod::kSunDisc) {
-    PLEINAIR_ASSIGN_OR_RETURN(maps.edges_, EdgeMap::Create(size, options.partitions));
+    PLEINAIR_ASSIGN_OR_RETURN(maps.edges_, EdgeMap::Create(options.resolutions[0]));
   }
   PLEINAIR_ASSIGN_OR_RETURN(
       maps.programs_.depth,
@@ -262,9 +262,7 @@ Result<int> ShadowMaps::Redraw(std::span<const ShadowCaster> casters, const Ligh
       slice.drawn = std::move(key);
       DrawDepth(i, axes);
       if (UsesMoments()) DrawMoments(i);
-      if (options_.method == ShadowMethod::kSunDisc) {
-        edges_.Draw(outlines, options_.resolutions[i], i);
-      }
+      if (i == 0 && options_.method == ShadowMethod::kSunDisc) edges_.Draw(outlines);
     }
     const int side = options_.resolutions[i];
     const TexelRect changed = slice.changing.Draw(changing, is_new, side, i, depth_);

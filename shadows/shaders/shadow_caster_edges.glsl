@@ -4,8 +4,8 @@
 #include "shadows/shaders/shadow_formulae.glsl"
 #include "shadows/shaders/shadow_lookup.glsl"
 
-// Lines at which casters end in the texels of the maps (shadows/edge_map.h).
-layout(binding = 24) uniform usampler2DArray shadow_edges[SHADOW_SETS];
+// Lines at which casters end in the texels of the finest maps (shadows/edge_map.h).
+layout(binding = 24) uniform usampler2D shadow_edges[SHADOW_SETS];
 
 // Half-widths of the narrowest and the widest box over parts of texels, texels.
 const float kNarrowestBox = 0.02, kWidestBox = 3.5;
@@ -39,11 +39,11 @@ float ShadowDivided(int set, int slice, vec4 size, ShadowReceiver r, ivec2 texel
 }
 
 // Visibility averaged over a box of ±k texels around the receiver, whose texels are divided by the
-// lines in them. `otherwise`: where it is not wanted, where the box is too wide, or where no caster
-// ends. One texel after another: Mesa's software renderer runs a loop's body at least once.
+// lines in them. `otherwise`: where it is not wanted, in coarser maps, where the box is too wide,
+// or where no caster ends. One texel after another: Mesa's software renderer runs a loop's body at least once.
 float ShadowAtEdges(int set, int slice, vec4 size, ShadowReceiver r, vec2 k, bool wanted,
                     float otherwise) {
-  wanted = wanted && max(k.x, k.y) <= kWidestBox;
+  wanted = wanted && slice == 0 && max(k.x, k.y) <= kWidestBox;
   k = clamp(k, kNarrowestBox, kWidestBox);
   // Lines beside a narrow box tell that its texels need not be blurred.
   vec2 reach = max(k, 1.0);
@@ -53,7 +53,7 @@ float ShadowAtEdges(int set, int slice, vec4 size, ShadowReceiver r, vec2 k, boo
   float blocked = 0.0;
   uint found = 0u;
   do {
-    uvec2 lines = texelFetch(shadow_edges[set], ivec3(texel, slice), 0).rg;
+    uvec2 lines = texelFetch(shadow_edges[set], texel, 0).rg;
     vec2 from_centre = r.texel - vec2(texel) - 0.5;
     vec2 low = clamp(from_centre - k, -0.5, 0.5), high = clamp(from_centre + k, -0.5, 0.5);
     blocked += (high.x - low.x) * (high.y - low.y) *
