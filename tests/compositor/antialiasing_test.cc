@@ -84,12 +84,8 @@ TEST(ComposerAntialiasing, SubpixelKeepsTheLightOfWhatMovesOverAPixel) {
   model.materials.front().detail.unlit = true;
   PlacedModel placed = Place(model, false);
   placed.linear = Mat3{0.8, -0.6, 0, 0.6, 0.8, 0, 0, 0, 1};
-  const auto solver = LightSolver::Create({placed}, {.rays_per_vertex = 64});
-  auto composer = Composer::Create(camera, {placed}, Using(AntialiasingMethod::kSubpixel));
-  ASSERT_TRUE(solver && composer);
-  const SouthernSun light;
-  ASSERT_TRUE((*composer)->SetLight((*solver)->Solve(light, Mat3{}), light, Mat3{},
-                                    (*solver)->RadianceFromBelow(light, Mat3{})));
+  const auto composer =
+      LitComposer({placed}, SouthernSun(), camera, Using(AntialiasingMethod::kSubpixel));
   RgbImage black(camera.width, camera.height, 3);
   std::fill_n(black.data(), black.size(), std::uint8_t{0});
   const double expected = 0.12 * 0.024 * 100.0 * 100.0;  // 100 pixels a metre.
@@ -98,12 +94,12 @@ TEST(ComposerAntialiasing, SubpixelKeepsTheLightOfWhatMovesOverAPixel) {
     Transform<Camera, Marker> moved = kFromAbove;
     moved.translation_m.x += 0.01 * step / kSteps;
     moved.translation_m.y += 0.004 * step / kSteps;
-    const auto image = (*composer)->Compose(black.view(), moved, {1, 1, 1});
+    const auto image = composer->Compose(black.view(), moved, {1, 1, 1});
     ASSERT_TRUE(image);
     EXPECT_NEAR(TotalLight(*image) / expected, 1.0, 0.003) << step;
   }
-  EXPECT_GT((*composer)->MixedPixels(), 0.005);
-  EXPECT_LT((*composer)->MixedPixels(), 0.1);
+  EXPECT_GT(composer->MixedPixels(), 0.005);
+  EXPECT_LT(composer->MixedPixels(), 0.1);
 }
 
 /// A board 0.3 px wide with a texture that is red everywhere, almost along the image's rows.

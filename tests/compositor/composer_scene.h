@@ -100,26 +100,34 @@ inline const PlacedModel kGround = Place(MakeBox({-4, -4, 0}, {4, 4, 0}, 0.3F), 
 inline const PlacedModel kCube =
     Place(MakeBox({-0.15, -0.15, 0.001}, {0.15, 0.15, 0.3}, 0.5F), false);
 
-inline RgbImage Compose(const std::vector<PlacedModel>& scene, CameraImageView picture,
-                        const CameraModel& camera = kCamera, double sun_lux = kSunLux,
-                        ComposerOptions options = {}, const std::optional<CameraLook>& look = {},
-                        bool assume_unmodelled_shadows = true) {
+/// A composer of a scene in this light.
+inline std::unique_ptr<Composer> LitComposer(const std::vector<PlacedModel>& scene,
+                                             const sky::SkyModel& light,
+                                             const CameraModel& camera = kCamera,
+                                             const ComposerOptions& options = {}) {
   LightSolverOptions solver_options;
   solver_options.rays_per_vertex = 64;
   const auto solver = LightSolver::Create(scene, solver_options);
   if (!solver) ADD_FAILURE() << solver.error().Message();
   auto composer = Composer::Create(camera, scene, options);
   if (!composer) ADD_FAILURE() << composer.error().Message();
-  (*composer)->AssumeUnmodelledShadows(assume_unmodelled_shadows);
-  const SouthernSun light(sun_lux);
   const auto set = (*composer)->SetLight((*solver)->Solve(light, Mat3{}), light, Mat3{},
                                          (*solver)->RadianceFromBelow(light, Mat3{}));
   if (!set) ADD_FAILURE() << set.error().Message();
-  if (const auto looks = (*composer)->SetCameraLook(look); !looks) {
+  return *std::move(composer);
+}
+
+inline RgbImage Compose(const std::vector<PlacedModel>& scene, CameraImageView picture,
+                        const CameraModel& camera = kCamera, double sun_lux = kSunLux,
+                        ComposerOptions options = {}, const std::optional<CameraLook>& look = {},
+                        bool assume_unmodelled_shadows = true) {
+  const auto composer = LitComposer(scene, SouthernSun(sun_lux), camera, options);
+  composer->AssumeUnmodelledShadows(assume_unmodelled_shadows);
+  if (const auto looks = composer->SetCameraLook(look); !looks) {
     ADD_FAILURE() << looks.error().Message();
   }
   auto composed =
-      (*composer)->Compose(picture, kFromAbove, {kExposureScale, kExposureScale, kExposureScale});
+      composer->Compose(picture, kFromAbove, {kExposureScale, kExposureScale, kExposureScale});
   if (!composed) ADD_FAILURE() << composed.error().Message();
   return *std::move(composed);
 }

@@ -147,13 +147,8 @@ TEST(Composer, FadesObjectAndShadowUnderTheShadowOfACloud) {
 }
 
 TEST(Composer, LeavesTheObjectTheSunlightThatComesThroughATree) {
-  const auto solver = LightSolver::Create({kGround, kCube}, {.rays_per_vertex = 64});
-  const auto composer = Composer::Create(kCamera, {kGround, kCube}, {});
-  ASSERT_TRUE(solver);
-  ASSERT_TRUE(composer);
   const SouthernSun light;
-  ASSERT_TRUE((*composer)->SetLight((*solver)->Solve(light, Mat3{}), light, Mat3{},
-                                    (*solver)->RadianceFromBelow(light, Mat3{})));
+  const auto composer = LitComposer({kGround, kCube}, light);
   // On the ground the tree's shadow ends north of the cube. The west half of the cube's shadow
   // overlaps it.
   const Vec3 to_sun = light.ToSun().xyz;
@@ -165,20 +160,20 @@ TEST(Composer, LeavesTheObjectTheSunlightThatComesThroughATree) {
     }
   }
   const auto seen_on_top = [&] {
-    const auto composed = (*composer)->Compose(EvenPicture(150).view(), kFromAbove,
-                                               {kExposureScale, kExposureScale, kExposureScale});
+    const auto composed = composer->Compose(EvenPicture(150).view(), kFromAbove,
+                                            {kExposureScale, kExposureScale, kExposureScale});
     EXPECT_TRUE(composed);
     return std::pair{SeenAt(*composed, {-0.08, 0.05, 0.3}), SeenAt(*composed, {0.08, 0.05, 0.3})};
   };
   const auto open = seen_on_top();
   EXPECT_NEAR(open.first, open.second, 0.01);
   ASSERT_TRUE(
-      (*composer)->SetSunTransmittance({.trees = std::make_shared<const SunTransmittanceMap>(
-                                            BuildSunTransmittanceMap(to_sun, surface_samples))}));
+      composer->SetSunTransmittance({.trees = std::make_shared<const SunTransmittanceMap>(
+                                         BuildSunTransmittanceMap(to_sun, surface_samples))}));
   const auto [shaded, sunlit] = seen_on_top();
   EXPECT_NEAR(sunlit, open.second, 0.01);
   EXPECT_NEAR(shaded / sunlit, kSkyLux / (kSkyLux + kSunLux * std::numbers::sqrt2 / 2), 0.03);
-  ASSERT_TRUE((*composer)->SetSunTransmittance({}));
+  ASSERT_TRUE(composer->SetSunTransmittance({}));
   EXPECT_EQ(seen_on_top(), open);
 }
 
@@ -278,13 +273,7 @@ TEST(Composer, DrawsShadowMapsOfTheSizesAskedFor) {
 
 TEST(Composer, DrawsAfterAChangeOfOptionsAsOneMadeWithThem) {
   const std::vector<PlacedModel> scene{kGround, kCube};
-  const SouthernSun light;
-  const auto solver = LightSolver::Create(scene, {.rays_per_vertex = 64});
-  ASSERT_TRUE(solver.has_value());
-  auto composer = Composer::Create(kCamera, scene, {});
-  ASSERT_TRUE(composer.has_value());
-  ASSERT_TRUE((*composer)->SetLight((*solver)->Solve(light, Mat3{}), light, Mat3{},
-                                    (*solver)->RadianceFromBelow(light, Mat3{})));
+  const auto composer = LitComposer(scene, SouthernSun());
   const RgbImage picture = EvenPicture(200);
   // Unchanged maps, then finer ones for a wide image (1280 pixels), then coarser ones on request.
   // Then another method, and the first one again.
@@ -294,9 +283,9 @@ TEST(Composer, DrawsAfterAChangeOfOptionsAsOneMadeWithThem) {
   sized.shadow_sizes = {256, 256, 256, 256};
   paper.shadow_method = ShadowMethod::kGaussian;
   for (const ComposerOptions& options : {half, large, sized, paper, ComposerOptions{}}) {
-    ASSERT_TRUE((*composer)->SetOptions(options));
-    const auto changed = (*composer)->Compose(picture.view(), kFromAbove,
-                                              {kExposureScale, kExposureScale, kExposureScale});
+    ASSERT_TRUE(composer->SetOptions(options));
+    const auto changed = composer->Compose(picture.view(), kFromAbove,
+                                           {kExposureScale, kExposureScale, kExposureScale});
     ASSERT_TRUE(changed.has_value());
     const RgbImage made = Compose(scene, picture, kCamera, kSunLux, options);
     EXPECT_TRUE(std::equal(made.data(), made.data() + made.size(), changed->data()));

@@ -108,13 +108,9 @@ TEST(ComposerShadowEdges, AreWhereTheCasterEndsHoweverLargeTheTexels) {
       scene.push_back(Place(MakeBox({-0.1, -0.1, 0.001}, {0.1, 0.1, 0.2}, 0.0F), false));
       scene.back().translation_m = {at.far_object_m, at.far_object_m, 0.0};
     }
-    const auto solver = LightSolver::Create(scene, {.rays_per_vertex = 16});
-    auto composer = Composer::Create(kCamera, scene, {});
-    ASSERT_TRUE(solver && composer);
-    (*composer)->AssumeUnmodelledShadows(false);
-    ASSERT_TRUE((*composer)->SetLight((*solver)->Solve(light, Mat3{}), light, Mat3{},
-                                      (*solver)->RadianceFromBelow(light, Mat3{})));
-    const auto image = (*composer)->Compose(EvenPicture(kCode).view(), kFromAbove, {1, 1, 1});
+    const auto composer = LitComposer(scene, light);
+    composer->AssumeUnmodelledShadows(false);
+    const auto image = composer->Compose(EvenPicture(kCode).view(), kFromAbove, {1, 1, 1});
     ASSERT_TRUE(image);
     EXPECT_LT(EdgeError(board, *image, kCode), at.largest_error) << at.far_object_m;
   }
