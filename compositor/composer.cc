@@ -76,6 +76,9 @@ class GlComposer : public Composer {
   void SetLens(const std::optional<ThinLens>& lens, int places) override {
     lens_.SetLens(lens, places);
   }
+  void SetMotion(const CameraMotion& motion, int max_views) override {
+    lens_.SetMotion(motion, max_views);
+  }
   LensFigures DrawnLens() const override { return lens_.figures(); }
   Result<void> SkipImage(const Transform<Camera, Marker>& camera_from_marker) override;
   Result<void> SetCameraLook(const std::optional<CameraLook>& look) override {

@@ -14,6 +14,7 @@
 #include "base/image.h"
 #include "base/vector.h"
 #include "compositor/composer_options.h"
+#include "compositor/lens/camera_motion.h"
 #include "compositor/lens/lens_figures.h"
 #include "compositor/lens/thin_lens.h"
 #include "compositor/light/light_mix.h"
@@ -105,6 +106,12 @@ class Composer {
   /// Images whose circles of confusion are all below 0.3 pixels have the bytes of those without.
   /// `places`: on the stop, drawn one after another, 1…1024, or kByLayers.
   virtual void SetLens(const std::optional<ThinLens>& lens, int places) = 0;
+
+  /// Sets how the camera moves while the next images are exposed; empty, the default: not at all.
+  /// Where its longest streak is 0.3 pixels or more, images are means of views from its poses, with
+  /// the lens in the same mean. Views lie half a pixel apart, and are `max_views` at most. Other
+  /// images have the bytes of those without. What moves in the scene is drawn at rest.
+  virtual void SetMotion(const CameraMotion& motion, int max_views) = 0;
 
   /// What the lens has drawn in the last image; camera pixels.
   virtual LensFigures DrawnLens() const = 0;

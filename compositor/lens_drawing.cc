@@ -3,6 +3,7 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
+#include <cmath>
 #include <glm/glm.hpp>
 #include <vector>
 
@@ -15,6 +16,16 @@ namespace {
 void DisableSurfaceTests() {
   glDisable(GL_CULL_FACE);
   glDisable(GL_DEPTH_TEST);
+}
+
+/// Pixels around objects that a spread reaches; 0: it is not drawn.
+int PixelsOf(const FrameSpread& spread) {
+  int pixels = 0;
+  if (spread.circle_px >= LensPass::kMinCircle_px) pixels += LensPass::Spread_px(spread.circle_px);
+  if (spread.streak_px >= LensPass::kMinStreak_px) {
+    pixels += static_cast<int>(std::ceil(0.5 * spread.streak_px)) + 1;
+  }
+  return pixels;
 }
 
 }  // namespace
@@ -36,29 +47,43 @@ int LensDrawing::AssumedSpread_px(const RenderCamera& camera, const shadows::Vie
   return circle_px < LensPass::kMinCircle_px ? 0 : LensPass::Spread_px(kAround * circle_px);
 }
 
-Result<int> LensDrawing::Measure(Canvas& canvas, const LensFrame& lens, double camera_fx,
-                                 const ImageTiles& drawn) {
-  PLEINAIR_ASSIGN_OR_RETURN(
-      const double circle_px,
-      canvas.lens.LargestCircle_px(canvas.targets, lens, canvas.camera, drawn));
-  figures_ = {.largest_circle_px = circle_px * camera_fx / canvas.camera.fx};
-  return circle_px < LensPass::kMinCircle_px ? 0 : LensPass::Spread_px(circle_px);
+Result<FrameSpread> LensDrawing::Measure(Canvas& canvas, const LensFrame& lens, double camera_fx,
+                                         const ImageTiles& drawn) {
+  PLEINAIR_ASSIGN_OR_RETURN(const FrameSpread spread,
+                            canvas.lens.SpreadOf(canvas.targets, lens, canvas.camera, drawn));
+  const double scale = camera_fx / canvas.camera.fx;
+  figures_ = {.largest_circle_px = spread.circle_px * scale,
+              .longest_streak_px = spread.streak_px * scale};
+  return spread;
+}
+
+int LensDrawing::ViewsFor(const FrameSpread& spread) const {
+  if (spread.streak_px < LensPass::kMinStreak_px) return places_;
+  // Edges step by half a pixel from one view to the next, across streak and circle together.
+  constexpr double kViewsPerPixel = 2.0;
+  const double wanted = kViewsPerPixel * (spread.streak_px + spread.circle_px);
+  const int views = static_cast<int>(std::ceil(std::clamp(wanted, 2.0, 1.0 * max_views_)));
+  return std::max(places_, views);
 }
 
 Result<const RealOccluders*> LensDrawing::Draw(const LensScene& scene, const FrameUniforms& frame,
                                                const shadows::View& view, AffectedTiles* tiles) {
   figures_ = {};
-  if (!lens_) return nullptr;
+  if (!lens_ && !motion_) return nullptr;
   Canvas& canvas = scene.canvas;
-  const LensFrame lens{frame, view, *lens_, places_};
-  PLEINAIR_ASSIGN_OR_RETURN(int spread_px, Measure(canvas, lens, scene.camera_fx, tiles->fine));
-  if (places_ == kByLayers && spread_px > scene.spread_px) {
+  const LensFrame lens{frame, view, lens_.value_or(ThinLens{}), motion_};
+  PLEINAIR_ASSIGN_OR_RETURN(const FrameSpread spread,
+                            Measure(canvas, lens, scene.camera_fx, tiles->fine));
+  const int views = ViewsFor(spread);
+  const int spread_px = PixelsOf(spread);
+  if (spread_px == 0) return nullptr;
+  if (views == kByLayers && spread_px > scene.spread_px) {
     // Shadows may lie far from the objects. The image then needs more pixels around it.
     *tiles = scene.draw_pinhole(spread_px);
     PLEINAIR_RETURN_IF_ERROR(Measure(canvas, lens, scene.camera_fx, tiles->fine));
   }
-  if (spread_px == 0) return nullptr;
-  if (places_ != kByLayers) {
+  if (views != kByLayers) {
+    figures_.views = views;
     *tiles = scene.surfaces.TilesOf(ProjectionOf(
         canvas.camera, view, canvas.picture.Spread_px() + canvas.places.Spread_px() + spread_px));
     if (scene.includes_all) tiles->all.IncludeAll();
@@ -88,16 +113,17 @@ Result<const RealOccluders*> LensDrawing::Draw(const LensScene& scene, const Fra
                        scene.light.environment(), hidden);
     glDisable(GL_DEPTH_TEST);
   };
-  if (places_ == kByLayers) {
+  if (views == kByLayers) {
     return canvas.lens.DrawLayers(canvas.targets, lens, canvas.camera, within,
                                   {draw_objects, shade_objects}, bind_frame, &figures_);
   }
+  const AveragedViews averaged = ExposureViews(lens, canvas.camera, views);
   PLEINAIR_RETURN_IF_ERROR(
-      canvas.lens.Draw(canvas.targets, lens, within, [&](const FrameUniforms& through) {
+      canvas.lens.Draw(canvas.targets, averaged, within, [&](const FrameUniforms& through) {
         canvas.places.Draw(canvas.targets, through, within,
                            [&](const FrameUniforms& place) { scene.draw(place, *tiles); });
       }));
-  return canvas.lens.OccludersIn(canvas.targets, lens, within, draw_real, bind_frame);
+  return canvas.lens.OccludersIn(canvas.targets, averaged, within, draw_real, bind_frame);
 }
 
 }  // namespace pleinair::compositor

@@ -6,6 +6,8 @@
 
 #include "base/error.h"
 #include "compositor/canvas.h"
+#include "compositor/lens/camera_motion.h"
+#include "compositor/lens/exposure_views.h"
 #include "compositor/lens/lens_figures.h"
 #include "compositor/lens/real_occluders.h"
 #include "compositor/lens/thin_lens.h"
@@ -37,13 +39,18 @@ struct LensScene {
   std::function<void(const FrameUniforms&, const AffectedTiles&)> draw;
 };
 
-/// The lens of a Composer, and how much of its last image was out of focus.
+/// The lens of a Composer and its motion, and how much of its last image was blurred by them.
 class LensDrawing {
  public:
   /// As Composer::SetLens().
   void SetLens(const std::optional<ThinLens>& lens, int places) {
     lens_ = lens;
     places_ = places;
+  }
+  /// As Composer::SetMotion().
+  void SetMotion(const CameraMotion& motion, int max_views) {
+    motion_ = motion;
+    max_views_ = max_views;
   }
   /// As Composer::DrawnLens().
   const LensFigures& figures() const { return figures_; }
@@ -52,19 +59,24 @@ class LensDrawing {
   int AssumedSpread_px(const RenderCamera& camera, const shadows::View& view,
                        const shadows::Box& objects) const;
 
-  /// Draws the image anew as the lens shows it, if anything is out of focus. The pinhole image must
-  /// be drawn. `tiles`: those of that image, then those of the lens. Returns the real surfaces that
-  /// cover objects over a part of the lens; null without any. Errors as LensViews::Create().
+  /// Draws the image anew as the moving lens shows it, if anything is out of focus or moves. The
+  /// pinhole image must be drawn. `tiles`: those of that image, then those of the lens. Returns the
+  /// real surfaces that cover objects over a part of the lens or of the exposure; null without any.
+  /// Errors as LensViews::Create().
   Result<const RealOccluders*> Draw(const LensScene& scene, const FrameUniforms& frame,
                                     const shadows::View& view, AffectedTiles* tiles);
 
  private:
-  /// Sets the figures of the drawn pinhole image, and returns its spread. Errors as
+  /// Sets the figures of the drawn pinhole image, and returns how far it is spread. Errors as
   /// LensViews::Create().
-  Result<int> Measure(Canvas& canvas, const LensFrame& lens, double camera_fx,
-                      const ImageTiles& drawn);
+  Result<FrameSpread> Measure(Canvas& canvas, const LensFrame& lens, double camera_fx,
+                              const ImageTiles& drawn);
+  /// Views to be averaged for a spread; kByLayers: none.
+  int ViewsFor(const FrameSpread& spread) const;
 
   std::optional<ThinLens> lens_;
+  CameraMotion motion_;
+  int max_views_ = 1;
   int places_ = kByLayers;
   LensFigures figures_;
 };

@@ -41,6 +41,19 @@ Result<void> CheckFocus(const LensFacts& facts, const std::string& where) {
   return {};
 }
 
+Result<void> CheckExposure(const LensFacts& facts, const std::string& where) {
+  if (!facts.exposure_ms) return {};
+  if (facts.exposure_ms->empty()) {
+    return InputError(where, "\"exposure_ms\" is an empty list", "give one time a frame");
+  }
+  const auto is_time = [](double value) { return IsLength(value) && std::isfinite(value); };
+  if (!std::all_of(facts.exposure_ms->begin(), facts.exposure_ms->end(), is_time)) {
+    return InputError(where, "\"exposure_ms\" is not greater than zero",
+                      "write the milliseconds for which the shutter is open");
+  }
+  return {};
+}
+
 Result<std::optional<double>> Aperture(const LensFacts& facts, const std::string& where) {
   for (const auto& [value, key] :
        {std::pair{facts.aperture_mm, "aperture_mm"}, std::pair{facts.f_number, "f_number"},
@@ -77,6 +90,11 @@ Result<LensDescription> CompleteLens(const LensFacts& facts, const std::string& 
     for (double& value : lens.focus_dioptres) value = 1.0 / value;
   } else if (facts.focus_dioptres) {
     lens.focus_dioptres = *facts.focus_dioptres;
+  }
+  PLEINAIR_RETURN_IF_ERROR(CheckExposure(facts, where));
+  if (facts.exposure_ms) {
+    lens.exposure_s = *facts.exposure_ms;
+    for (double& value : lens.exposure_s) value *= 1e-3;
   }
   lens.blades = facts.blades.value_or(0);
   if (lens.blades != 0 && (lens.blades < kMinBlades || lens.blades > kMaxBlades)) {

@@ -8,15 +8,17 @@
 
 namespace pleinair::scene {
 
-/// What a scene or a recording states about focus and aperture.
+/// What a scene or a recording states about focus, aperture and exposure.
 struct LensDescription {
   /// Reciprocal distances in focus, 1/m, 0 for infinity: none, one, or one a frame.
   std::vector<double> focus_dioptres;
   std::optional<double> aperture_m;  ///< Diameter of the entrance pupil.
   int blades = 0;                    ///< Blades of the stop; 0: round.
   double blade_rotation_deg = 0.0;   ///< One corner's angle from the image's right, clockwise.
+  /// Times for which the shutter is open, seconds: none, one, or one a frame.
+  std::vector<double> exposure_s;
 
-  /// True if images can be drawn by it.
+  /// True if it states focus and aperture.
   bool IsComplete() const { return !focus_dioptres.empty() && aperture_m.has_value(); }
 };
 
@@ -27,6 +29,7 @@ struct LensFacts {
   std::optional<double> aperture_mm, f_number, focal_length_mm;
   std::optional<int> blades;
   std::optional<double> blade_rotation_deg;
+  std::optional<std::vector<double>> exposure_ms;
 };
 
 /// Checks the keys and completes the description. `where`: file, and line where there is one.

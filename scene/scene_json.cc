@@ -134,6 +134,7 @@ Result<LensDescription> ReadLens(const files::JsonFields& lens) {
   PLEINAIR_ASSIGN_OR_RETURN(facts.focal_length_mm, lens.Number("focal_length_mm"));
   PLEINAIR_ASSIGN_OR_RETURN(facts.blades, lens.Integer("blades"));
   PLEINAIR_ASSIGN_OR_RETURN(facts.blade_rotation_deg, lens.Number("blade_rotation_deg"));
+  PLEINAIR_ASSIGN_OR_RETURN(facts.exposure_ms, NumbersOf(lens, "exposure_ms"));
   return CompleteLens(facts, lens.name());
 }
 

@@ -38,10 +38,11 @@ CameraLook MedianLook(const std::deque<CameraLook>& looks) {
 std::optional<CameraLook> CameraLookFilter::Update(
     ImageView<const std::uint8_t> rgb, const CameraModel& camera,
     const Transform<Camera, Marker>& camera_from_marker, const scene::MarkerReflectance& marker,
-    const CameraResponse& response, const std::optional<compositor::ThinLens>& lens) {
+    const CameraResponse& response, const std::optional<compositor::ThinLens>& lens,
+    const compositor::CameraMotion& motion) {
   if (frames_to_next_-- > 0) return std::nullopt;
-  const auto measured =
-      compositor::MeasureCameraLook(rgb, camera, camera_from_marker, marker, response, lens);
+  const auto measured = compositor::MeasureCameraLook(rgb, camera, camera_from_marker, marker,
+                                                      response, lens, motion);
   if (!measured) return std::nullopt;
   frames_to_next_ = kStep - 1;
   recent_.push_back(*measured);

@@ -18,13 +18,14 @@ namespace pleinair::session {
 class CameraLookFilter {
  public:
   /// Returns the median of the last measurements if this frame was measured. Returns nothing if the
-  /// look is unchanged. `lens`: as compositor::MeasureCameraLook().
+  /// look is unchanged. `lens` and `motion`: as compositor::MeasureCameraLook().
   std::optional<compositor::CameraLook> Update(ImageView<const std::uint8_t> rgb,
                                                const CameraModel& camera,
                                                const Transform<Camera, Marker>& camera_from_marker,
                                                const scene::MarkerReflectance& marker,
                                                const CameraResponse& response,
-                                               const std::optional<compositor::ThinLens>& lens);
+                                               const std::optional<compositor::ThinLens>& lens,
+                                               const compositor::CameraMotion& motion);
 
  private:
   int frames_to_next_ = 0;  // Until the next measurement.

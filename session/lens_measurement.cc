@@ -39,6 +39,17 @@ std::optional<compositor::MarkerMotion> MotionAt(const std::vector<Observation>&
   return compositor::MarkerMotion{before.camera_from_marker, after.camera_from_marker, seconds};
 }
 
+/// Median time between two frames; 0 without two.
+double FrameInterval_s(const std::vector<FrameTime>& times) {
+  if (times.size() < 2) return 0.0;
+  std::vector<double> intervals_s(times.size() - 1);
+  for (std::size_t i = 1; i < times.size(); ++i) {
+    intervals_s[i - 1] =
+        static_cast<double>(times[i].timestamp_ns - times[i - 1].timestamp_ns) * 1e-9;
+  }
+  return Median(std::move(intervals_s));
+}
+
 }  // namespace
 
 bool MayTellFocus(const Pipeline& pipeline) {
@@ -53,17 +64,37 @@ bool MayTellFocus(const Pipeline& pipeline) {
   return farthest_m >= compositor::kLeastDistanceChange * nearest_m;
 }
 
+bool MayTellExposure(const Pipeline& pipeline) {
+  constexpr double kMoved_px = 2.0;  // By less, an exposure of half the interval is not seen.
+  constexpr int kMinFrames = 4;
+  const std::optional<MarkerName> marker = pipeline.tracks().ReferenceMarker();
+  if (!marker || pipeline.scene().marker.target) return false;
+  const std::vector<Observation>& track = pipeline.tracks().TrackOf(*marker);
+  int moving = 0;
+  for (std::size_t i = 1; i < track.size(); ++i) {
+    if (track[i].frame_index != track[i - 1].frame_index + 1) continue;
+    double moved_px = 0.0;
+    for (std::size_t corner = 0; corner < track[i].corners_px.size(); ++corner) {
+      moved_px =
+          std::max(moved_px, Norm(track[i].corners_px[corner] - track[i - 1].corners_px[corner]));
+    }
+    if (moved_px >= kMoved_px) ++moving;
+  }
+  return moving >= kMinFrames;
+}
+
 Result<MeasuredLens> MeasureLens(Pipeline& pipeline, const compositor::KnownLens& known,
                                  devices::Recording recording, const PassMonitor& monitor) {
   MeasuredLens measured;
   measured.fx = recording.camera.fx;
   const std::optional<MarkerName> marker = pipeline.tracks().ReferenceMarker();
   if (!marker) {
-    measured.fit.reason = "no frame shows the marker";
+    measured.fit.reason = measured.exposure.reason = "no frame shows the marker";
     return measured;
   }
   if (pipeline.scene().marker.target) {
-    measured.fit.reason = "an image target has no edges of known contrast";
+    measured.fit.reason = measured.exposure.reason =
+        "an image target has no edges of known contrast";
     return measured;
   }
   PLEINAIR_ASSIGN_OR_RETURN(const CameraResponse response, CameraResponseOf(pipeline, recording));
@@ -103,6 +134,9 @@ Result<MeasuredLens> MeasureLens(Pipeline& pipeline, const compositor::KnownLens
   }
   measured.fit =
       compositor::MeasureFocus(profiles, recording.camera.fx, known_of_all, &measured.readings);
+  measured.exposure = compositor::MeasureExposure(
+      profiles, measured.fit.is_measured() ? measured.fit.in_focus_blur_px : 0.0,
+      FrameInterval_s(pipeline.tracks().frame_times()));
   return measured;
 }
 

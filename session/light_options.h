@@ -7,6 +7,7 @@
 #include "compositor/photometry/light_overrides.h"
 #include "scene/scene_description.h"
 #include "session/frame_lens.h"
+#include "session/motion/frame_exposure.h"
 
 namespace pleinair::session {
 
@@ -29,6 +30,7 @@ struct LightOptions {
   LightChangeMode changes = LightChangeMode::kFollow;
   bool match_look = true;  ///< Drawn pixels receive the frames' blur and noise.
   DefocusOptions defocus = {};
+  MotionBlurOptions motion_blur = {};
   /// Objects that cover the marker are in front of the virtual objects.
   bool hands_in_front = false;
   /// Overrides the scene's; empty: as in the scene. kSrgbResponse: sRGB, whatever the frames show.
@@ -43,5 +45,10 @@ struct LightOptions {
 /// Returns the scene with the heading and the camera response of the options.
 scene::SceneDescription WithGiven(const scene::SceneDescription& scene,
                                   const LightOptions& options);
+
+/// What options, scene and recording state of the lens and the exposure, in this order. Nothing
+/// where they state nothing.
+std::optional<scene::LensDescription> StatedLens(const scene::SceneDescription& scene,
+                                                 const LightOptions& options);
 
 }  // namespace pleinair::session

@@ -10,6 +10,7 @@
 #include "compositor/picture/camera_look.h"
 #include "session/frame_lens.h"
 #include "session/light_follower.h"
+#include "session/motion/frame_exposure.h"
 #include "sky/sun/sun_position.h"
 
 namespace pleinair::session {
@@ -63,6 +64,7 @@ struct CameraSummary {
   DefocusSource defocus = DefocusSource::kOff;
   std::optional<compositor::ThinLens> lens;  ///< At the last frame.
   int lens_places = 0;                       ///< DefocusOptions::places.
+  FrameExposure::Exposure exposure;          ///< Of the last frame, by which motion blurs.
   compositor::LensFigures drawn_lens;        ///< The largest of all frames so far.
   double mixed_pixels = 0.0;                 ///< Composer::MixedPixels().
 };

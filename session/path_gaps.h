@@ -19,12 +19,8 @@ struct FilledGaps {
 /// a second, people who film by hand turn and sway little beyond what the poses around it show.
 inline constexpr double kMaxGap_s = 0.5;
 
-/// Fills the gaps of a trajectory by the camera's motion. Each coordinate of `camera_from_marker`
-/// is a Gaussian process in time with a linear mean, given the poses within 0.6 s on both sides.
-/// Source: Rasmussen & Williams 2006, "Gaussian Processes for Machine Learning", Eqs. 2.31 and
-/// 2.41. The covariance is exp(-Δt² / (2 · 0.2² s²)), with a noise of 1e-3. The differences from
-/// the poses at both ends fade over the gap, so that nothing jumps. `times`: all frames of the
-/// recording.
+/// Fills the gaps of a trajectory by the camera's motion between the poses at their ends
+/// (PathMotion). `times`: all frames of the recording.
 FilledGaps FillGaps(const std::vector<FrameTime>& times, std::vector<Observation>* path);
 
 }  // namespace pleinair::session

@@ -10,6 +10,7 @@
 #include "devices/images/rounded_image.h"
 #include "session/anchor_follower.h"
 #include "session/marker_refiner.h"
+#include "session/motion/pose_motion.h"
 #include "session/scene_marker.h"
 #include "session/scene_renderer.h"
 
@@ -134,6 +135,19 @@ std::optional<CameraPose> Pipeline::PoseIn(const devices::Frame& last_tracked) c
 }
 
 std::optional<CameraPose> Pipeline::FollowIn(const devices::Frame& last_tracked) {
+  std::optional<CameraPose> pose = FollowMarkersIn(last_tracked);
+  if (!pose || renderer_->exposure().IsOff()) return pose;
+  pose->exposure_s = last_tracked.settings.exposure_s;
+  // Of the past alone: the reference marker shows how the camera moved last.
+  const std::vector<Observation>& track = tracks_.TrackOf(pose->marker);
+  if (!track.empty() && track.back().frame_index == last_tracked.index) {
+    pose->motion =
+        MovedTo(MotionAbout(track, track.size() - 1), pose->observation.camera_from_marker);
+  }
+  return pose;
+}
+
+std::optional<CameraPose> Pipeline::FollowMarkersIn(const devices::Frame& last_tracked) {
   if (scene_.anchors.empty()) return PoseIn(last_tracked);
   if (!by_anchors_.follower) {
     by_anchors_.follower =
@@ -219,6 +233,7 @@ Result<ComposedFrame> Pipeline::Compose(CameraImageView image,
   compositor::MarkerVisibility visibility;
   if (hands_in_front_) visibility = VisibilityOf(scene_.marker, pose->marker, seen);
   renderer_->UseLensOf(seen.frame_index);
+  renderer_->UseMotion(seen.frame_index, pose->motion, pose->exposure_s);
   PLEINAIR_ASSIGN_OR_RETURN(
       composed.image, renderer_->Render(image, seen.camera_from_marker, time, visibility, followed,
                                         ShowsReferenceMarker(seen)));
@@ -236,6 +251,7 @@ Result<ComposedFrame> Pipeline::Advance(CameraImageView image,
   MeterLightOn(pose->marker);
   const Observation& seen = pose->observation;
   renderer_->UseLensOf(seen.frame_index);
+  renderer_->UseMotion(seen.frame_index, pose->motion, pose->exposure_s);
   PLEINAIR_RETURN_IF_ERROR(renderer_->Advance(image, seen.camera_from_marker, time,
                                               FollowedIn(seen), ShowsReferenceMarker(seen)));
   if (!renderer_->DrawsObjects()) return advanced;

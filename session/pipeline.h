@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -69,6 +70,11 @@ struct TrackedFrame {
 struct CameraPose {
   MarkerName marker;
   Observation observation;
+  /// Pose of the camera some seconds after that of the frame; negative: before. Motion blur needs
+  /// it; empty: unknown.
+  std::function<Transform<Camera, Marker>(double seconds)> motion{};
+  /// For how long the frame was exposed, as its camera reports it.
+  std::optional<double> exposure_s{};
 };
 
 /// A frame with the virtual objects drawn into it.
@@ -114,8 +120,8 @@ class Pipeline {
   /// detected in it.
   std::optional<CameraPose> PoseIn(const devices::Frame& last_tracked) const;
 
-  /// As PoseIn(), by all markers of a scene with anchors (session/anchor_follower.h). Call it once
-  /// per frame, in order.
+  /// As PoseIn(), by all markers of a scene with anchors (session/anchor_follower.h), with the
+  /// motion that the frames so far show. Call it once per frame, in order.
   std::optional<CameraPose> FollowIn(const devices::Frame& last_tracked);
 
   /// All observations of each marker so far.
@@ -182,6 +188,7 @@ class Pipeline {
  private:
   Pipeline(const CameraModel& camera, const scene::SceneDescription& scene,
            const PipelineOptions& options);
+  std::optional<CameraPose> FollowMarkersIn(const devices::Frame& last_tracked);
   void AddToTracks(const devices::Frame& frame,
                    const std::vector<tracker::MarkerObservation>& observations);
   /// `rgb` and `deep` may be those of the frame.

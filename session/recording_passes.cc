@@ -10,6 +10,7 @@
 
 #include "session/frame_prefetch.h"
 #include "session/light_frames.h"
+#include "session/motion/pose_motion.h"
 #include "session/scene_renderer.h"
 
 namespace pleinair::session {
@@ -247,7 +248,13 @@ Result<void> ComposeFrames(Pipeline& pipeline, devices::Recording recording,
     Resize(pipeline, &*frame, &pass.times());
     while (at != path.end() && at->frame_index < frame->index) ++at;
     std::optional<CameraPose> pose;
-    if (at != path.end() && at->frame_index == frame->index) pose = CameraPose{*marker, *at};
+    if (at != path.end() && at->frame_index == frame->index) {
+      pose = CameraPose{*marker, *at};
+      pose->exposure_s = frame->settings.exposure_s;
+      if (!pipeline.renderer().exposure().IsOff()) {
+        pose->motion = MotionAbout(path, static_cast<std::size_t>(at - path.begin()));
+      }
+    }
     std::optional<RgbImage> image = earlier ? earlier(frame->index) : std::nullopt;
     const UtcTime moment = pipeline.MomentOf(frame->timestamp_ns);
     PLEINAIR_ASSIGN_OR_RETURN(ComposedFrame composed,

@@ -47,6 +47,9 @@ Result<std::unique_ptr<SceneRenderer>> SceneRenderer::Create(
   if (light.match_look) renderer->matched_.look.emplace();
   PLEINAIR_ASSIGN_OR_RETURN(renderer->matched_.lens,
                             FrameLens::Create(scene, light.defocus, light.match_look));
+  PLEINAIR_ASSIGN_OR_RETURN(renderer->matched_.exposure,
+                            FrameExposure::Create(scene, light.motion_blur, light.match_look));
+  renderer->matched_.max_views = light.motion_blur.max_views;
   renderer->summary_.camera.lens_places = light.defocus.places;
   renderer->summary_.camera.defocus = renderer->matched_.lens.source();
   renderer->edited_.first_places = UneditedScene(scene, options, 0.0).objects;
@@ -300,11 +303,23 @@ void SceneRenderer::UseLensOf(std::int64_t frame_index) {
   if (composer_) composer_->SetLens(summary_.camera.lens, summary_.camera.lens_places);
 }
 
+void SceneRenderer::UseMotion(std::int64_t frame_index, const PoseMotion& motion,
+                              const std::optional<double>& own_exposure_s) {
+  summary_.camera.exposure = matched_.exposure.Of(frame_index, own_exposure_s);
+  matched_.motion = {};
+  const double exposure_s = summary_.camera.exposure.seconds;
+  if (motion && exposure_s > 0.0) {
+    matched_.motion = [motion, exposure_s](double share) { return motion(share * exposure_s); };
+  }
+  if (composer_) composer_->SetMotion(matched_.motion, matched_.max_views);
+}
+
 Result<void> SceneRenderer::UpdateCameraLook(CameraImageView image,
                                              const Transform<Camera, Marker>& camera_from_marker) {
   if (!matched_.look) return {};
-  const auto look = matched_.look->Update(image.rgb(), camera_, camera_from_marker,
-                                          marker_reflectance_, response_, summary_.camera.lens);
+  const auto look =
+      matched_.look->Update(image.rgb(), camera_, camera_from_marker, marker_reflectance_,
+                            response_, summary_.camera.lens, matched_.motion);
   if (!look) return {};
   summary_.camera.look = look;
   return composer_->SetCameraLook(look);
@@ -363,6 +378,8 @@ Result<RgbImage> SceneRenderer::Render(CameraImageView image,
   most.largest_circle_px = std::max(most.largest_circle_px, drawn.largest_circle_px);
   most.layers = std::max(most.layers, drawn.layers);
   most.peels = std::max(most.peels, drawn.peels);
+  most.longest_streak_px = std::max(most.longest_streak_px, drawn.longest_streak_px);
+  most.views = std::max(most.views, drawn.views);
   compositor::PutInFront(image.rgb(),
                          compositor::MaskOccluder(image.rgb(), camera_, camera_from_marker, cover),
                          &composed);

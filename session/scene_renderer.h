@@ -26,6 +26,8 @@
 #include "session/light_follower.h"
 #include "session/light_options.h"
 #include "session/light_summary.h"
+#include "session/motion/frame_exposure.h"
+#include "session/motion/pose_motion.h"
 #include "session/render_times.h"
 #include "session/scene_edit.h"
 #include "session/scene_light.h"
@@ -110,6 +112,17 @@ class SceneRenderer {
   /// Uses the lens of a frame from now on.
   void UseLensOf(std::int64_t frame_index);
 
+  /// For how long the frames are exposed.
+  const FrameExposure& exposure() const { return matched_.exposure; }
+  /// As FrameExposure::UseMeasured(), before the first frame is rendered.
+  void UseMeasuredExposure(const compositor::ExposureFit& fit) {
+    matched_.exposure.UseMeasured(fit);
+  }
+  /// Uses the exposure of a frame and the motion about its pose from now on. `own_exposure_s`: as
+  /// its camera reports it.
+  void UseMotion(std::int64_t frame_index, const PoseMotion& motion,
+                 const std::optional<double>& own_exposure_s);
+
   /// Response of the camera: as in the scene, estimated, or sRGB.
   const CameraResponse& response() const { return response_; }
 
@@ -185,6 +198,9 @@ class SceneRenderer {
   struct {
     std::optional<CameraLookFilter> look;  // Empty: they stay sharp and clean.
     FrameLens lens;
+    FrameExposure exposure;
+    compositor::CameraMotion motion;  // Of the frame; empty: at rest.
+    int max_views = 1;
   } matched_;
   Edited edited_;
   LightSummary summary_;

@@ -7,6 +7,7 @@
 
 #include "app/options/antialiasing_options.h"
 #include "app/options/defocus_options.h"
+#include "app/options/motion_blur_options.h"
 #include "app/replay/replay.h"
 
 namespace pleinair::app {
@@ -27,6 +28,7 @@ struct ReplayArguments {
     std::vector<double> fog;
     AntialiasingArguments antialiasing;
     DefocusArguments defocus;
+    MotionBlurArguments motion_blur;
   } drawing;
   struct Day {
     std::string hours, every;

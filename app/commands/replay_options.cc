@@ -6,6 +6,7 @@
 #include "app/options/defocus_options.h"
 #include "app/options/light_options.h"
 #include "app/options/model_options.h"
+#include "app/options/motion_blur_options.h"
 #include "app/options/number_range.h"
 #include "app/options/trajectory_options.h"
 
@@ -63,6 +64,7 @@ void AddReplayOptions(CLI::App& command, ReplayArguments& arguments) {
       ->type_name("TIMES,...");
   AddAntialiasingOptions(command, arguments.drawing.antialiasing);
   AddDefocusOptions(command, arguments.drawing.defocus);
+  AddMotionBlurOptions(command, arguments.drawing.motion_blur);
   CLI::Option* time_lapse = command.add_option(
       "--time-lapse", arguments.day.hours,
       "Also draw the whole scene, phantoms in their own colours, over time: timelapse.mp4 and the "

@@ -99,6 +99,7 @@ std::string CommandText(const ReplayArguments& arguments) {
     text += fmt::format(" --fog {}", fmt::join(arguments.drawing.fog, ","));
   text += AntialiasingOptionText(arguments.drawing.antialiasing);
   text += DefocusOptionText(arguments.drawing.defocus);
+  text += MotionBlurOptionText(arguments.drawing.motion_blur);
   if (!arguments.day.hours.empty()) {
     text += " --time-lapse " + Quoted(arguments.day.hours);
     if (!arguments.day.every.empty()) text += " --every " + Quoted(arguments.day.every);
@@ -165,6 +166,8 @@ Result<void> Run(ReplayArguments& arguments) {
   PLEINAIR_ASSIGN_OR_RETURN(options.composer.antialiasing,
                             ParseAntialiasing(arguments.drawing.antialiasing));
   PLEINAIR_RETURN_IF_ERROR(ParseDefocus(arguments.drawing.defocus, &options.light.defocus));
+  PLEINAIR_RETURN_IF_ERROR(
+      ParseMotionBlur(arguments.drawing.motion_blur, &options.light.motion_blur));
   PLEINAIR_RETURN_IF_ERROR(SetRange(arguments, &options.range));
   // A single picture is no video.
   const bool is_still = arguments.range.frame.has_value();

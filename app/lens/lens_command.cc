@@ -24,16 +24,17 @@ namespace {
 constexpr const char* kLensExamples =
     "Examples:\n"
     "  pleinair lens site\n"
-    "      focus and aperture, with errors, by the blur of the marker's edges\n"
+    "      focus, aperture and exposure, with errors, by the blur of the marker's edges\n"
     "  pleinair lens walk.mp4 --calibration phone.yaml --scene scene.toml --json\n"
     "  pleinair lens site --csv blur.csv\n"
     "      every reading: frame,timestamp_s,side,distance_m,blur_px\n"
-    "The marker has to be seen at distances that differ, best by a factor of two. Where the "
-    "frames\n"
-    "do not tell the lens, the answer is 'not measured', with the reason; the exit code is 0.\n"
+    "The marker has to be seen at distances that differ, best by a factor of two, and in motion\n"
+    "for the exposure. Where the frames do not show it, the answer is 'not measured', with the\n"
+    "reason; the exit code is 0.\n"
     "JSON: measured, reason, focus_m (null: infinity), focus_dioptres, focus_dioptres_error,\n"
-    "aperture_mm, aperture_relative_error, in_focus_blur_px, readings, nearest_m, farthest_m,\n"
-    "metadata. docs/guide/lens.md explains them.";
+    "aperture_mm, aperture_relative_error, in_focus_blur_px, exposure_ms, exposure_error_ms,\n"
+    "exposure_reason, readings, nearest_m, farthest_m, metadata. docs/guide/lens.md explains "
+    "them.";
 
 struct LensArguments {
   std::string recording, scene, calibration, csv;
@@ -83,8 +84,8 @@ Result<void> RunLens(const LensArguments& arguments) {
 }  // namespace
 
 void AddLensCommand(CLI::App& app, CommandResult& result) {
-  CLI::App* command =
-      app.add_subcommand("lens", "Measure focus and aperture of a recording on its marker");
+  CLI::App* command = app.add_subcommand(
+      "lens", "Measure focus, aperture and exposure of a recording on its marker");
   command->footer(kLensExamples);
   auto arguments = std::make_shared<LensArguments>();
   command->add_option("RECORDING", arguments->recording, "Folder of a recording, or a film")

@@ -20,6 +20,13 @@ constexpr std::array<const char*, 4> kSides = {"top", "left", "bottom", "right"}
 
 Json IfKnown(bool is_known, double value) { return is_known ? Json(value) : Json(); }
 
+/// Milliseconds: null, one number, or one a frame.
+Json ExposuresJson(const std::vector<double>& exposures_s) {
+  Json exposures;
+  for (const double exposure_s : exposures_s) exposures.push_back(1e3 * exposure_s);
+  return exposures.size() == 1 ? exposures.front() : exposures;
+}
+
 Json MetadataJson(const std::optional<scene::LensDescription>& metadata) {
   if (!metadata) return {};
   Json dioptres, metres;
@@ -36,7 +43,8 @@ Json MetadataJson(const std::optional<scene::LensDescription>& metadata) {
   return {{"focus_m", metres},
           {"focus_dioptres", dioptres},
           {"aperture_mm",
-           IfKnown(metadata->aperture_m.has_value(), 1e3 * metadata->aperture_m.value_or(0.0))}};
+           IfKnown(metadata->aperture_m.has_value(), 1e3 * metadata->aperture_m.value_or(0.0))},
+          {"exposure_ms", ExposuresJson(metadata->exposure_s)}};
 }
 
 std::string FocusText(double dioptres) {
@@ -51,9 +59,28 @@ std::string MetadataText(const std::optional<scene::LensDescription>& metadata) 
     focus = FocusText(near);
     if (near > far) focus += " to " + FocusText(far);
   }
+  std::string exposure = "unknown";
+  if (!metadata->exposure_s.empty()) {
+    const auto [shortest, longest] = std::ranges::minmax(metadata->exposure_s);
+    exposure = fmt::format("{:.3g} ms", 1e3 * shortest);
+    if (longest > shortest) exposure += fmt::format(" to {:.3g} ms", 1e3 * longest);
+  }
   return fmt::format(
-      "metadata: focus {}, aperture {}\n", focus,
-      metadata->aperture_m ? fmt::format("{:.3g} mm", 1e3 * *metadata->aperture_m) : "unknown");
+      "metadata: focus {}, aperture {}, exposure {}\n", focus,
+      metadata->aperture_m ? fmt::format("{:.3g} mm", 1e3 * *metadata->aperture_m) : "unknown",
+      exposure);
+}
+
+std::string ExposureText(const compositor::ExposureFit& fit) {
+  if (fit.is_measured()) {
+    return fmt::format("exposure: {:.3g} ms ± {:.2g} ms, streaks of up to {:.1f} px\n",
+                       1e3 * fit.exposure_s, 1e3 * fit.error_s, fit.longest_streak_px);
+  }
+  std::string text = "exposure not measured: " + fit.reason;
+  if (fit.shorter_than_s > 0.0) {
+    text += fmt::format(": it is below {:.2g} ms", 1e3 * fit.shorter_than_s);
+  }
+  return text + "\n";
 }
 
 }  // namespace
@@ -61,7 +88,7 @@ std::string MetadataText(const std::optional<scene::LensDescription>& metadata) 
 std::string LensJsonText(const session::MeasuredLens& measured,
                          const std::optional<scene::LensDescription>& metadata) {
   const compositor::FocusFit& fit = measured.fit;
-  const bool known = fit.is_measured();
+  const bool known = fit.is_measured(), exposed = measured.exposure.is_measured();
   const Json json{{"measured", known},
                   {"reason", known ? Json() : Json(fit.reason)},
                   {"focus_m", IfKnown(known && fit.focus_dioptres > 0.0, 1.0 / fit.focus_dioptres)},
@@ -70,6 +97,9 @@ std::string LensJsonText(const session::MeasuredLens& measured,
                   {"aperture_mm", IfKnown(known, 1e3 * fit.aperture_m)},
                   {"aperture_relative_error", IfKnown(known, fit.aperture_relative_error)},
                   {"in_focus_blur_px", IfKnown(known, fit.in_focus_blur_px)},
+                  {"exposure_ms", IfKnown(exposed, 1e3 * measured.exposure.exposure_s)},
+                  {"exposure_error_ms", IfKnown(exposed, 1e3 * measured.exposure.error_s)},
+                  {"exposure_reason", exposed ? Json() : Json(measured.exposure.reason)},
                   {"readings", fit.readings},
                   {"nearest_m", IfKnown(fit.nearest_m > 0.0, fit.nearest_m)},
                   {"farthest_m", IfKnown(fit.farthest_m > 0.0, fit.farthest_m)},
@@ -87,7 +117,6 @@ std::string LensText(const session::MeasuredLens& measured,
         "in-focus blur: {:.2f} px\n",
         FocusText(fit.focus_dioptres), fit.focus_dioptres, fit.focus_dioptres_error,
         1e3 * fit.aperture_m, 100.0 * fit.aperture_relative_error, fit.in_focus_blur_px);
-    if (fit.exposure_s > 0.0) text += fmt::format("exposure: {:.4f} s\n", fit.exposure_s);
     for (const compositor::FocusAt& at : fit.changes) {
       text += fmt::format("    at {:.1f} s: {} ({:.3f} ± {:.3f} /m)\n", at.timestamp_s,
                           FocusText(at.focus_dioptres), at.focus_dioptres, at.error);
@@ -100,7 +129,7 @@ std::string LensText(const session::MeasuredLens& measured,
     text += fmt::format("readings: {}, marker from {:.2f} to {:.2f} m\n", fit.readings,
                         fit.nearest_m, fit.farthest_m);
   }
-  return text + MetadataText(metadata);
+  return text + ExposureText(measured.exposure) + MetadataText(metadata);
 }
 
 std::string ReadingsCsv(const std::vector<compositor::BlurReading>& readings) {

@@ -1,7 +1,10 @@
 #include "app/replay/estimate_light.h"
 
+#include <algorithm>
+#include <iterator>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "app/replay/replay_warnings.h"
 #include "app/terminal/pass_bar.h"
@@ -20,23 +23,33 @@ Result<void> EstimateLight(ReplayState& state) {
 }
 
 Result<void> MeasureLens(ReplayState& state) {
+  if (!state.renderer().DrawsObjects() || state.report.path.empty()) return {};
   const session::FrameLens& lens = state.renderer().lens();
-  if (!lens.MayBeMeasured() || !state.renderer().DrawsObjects() || state.report.path.empty()) {
-    return {};
-  }
-  const bool is_asked_for = state.options.light.defocus.mode == session::DefocusMode::kMeasured;
-  if (!is_asked_for && !session::MayTellFocus(*state.pipeline)) return {};
+  const session::LightOptions& options = state.options.light;
+  const bool wants_focus = options.defocus.mode == session::DefocusMode::kMeasured;
+  const bool wants_exposure = options.motion_blur.mode == session::MotionBlurMode::kMeasured;
+  const bool measures_focus =
+      lens.MayBeMeasured() && (wants_focus || session::MayTellFocus(*state.pipeline));
+  const bool measures_exposure = state.renderer().exposure().MayBeMeasured() &&
+                                 (wants_exposure || session::MayTellExposure(*state.pipeline));
+  if (!measures_focus && !measures_exposure) return {};
   PLEINAIR_ASSIGN_OR_RETURN(devices::Recording recording, state.OpenRecording());
   PassBar bar("Measuring the lens", state.report.call.recording);
   PLEINAIR_ASSIGN_OR_RETURN(state.report.film.lens, state.times.Measure("measure lens", [&] {
     return session::MeasureLens(*state.pipeline, lens.Known(), std::move(recording),
                                 {bar.Progress(), nullptr});
   }));
-  const compositor::FocusFit& fit = state.report.film.lens->fit;
-  state.renderer().UseMeasuredLens(fit, state.pipeline->tracks().frame_times());
-  for (std::string& sentence : LensWarnings(fit, is_asked_for)) {
-    state.report.warnings.push_back(std::move(sentence));
+  const session::MeasuredLens& measured = *state.report.film.lens;
+  std::vector<std::string> warnings;
+  if (measures_focus) {
+    state.renderer().UseMeasuredLens(measured.fit, state.pipeline->tracks().frame_times());
+    warnings = LensWarnings(measured.fit, wants_focus);
   }
+  if (measures_exposure) state.renderer().UseMeasuredExposure(measured.exposure);
+  if (wants_exposure && !measured.exposure.is_measured()) {
+    warnings.push_back(ExposureWarning(measured.exposure));
+  }
+  std::move(warnings.begin(), warnings.end(), std::back_inserter(state.report.warnings));
   return {};
 }
 

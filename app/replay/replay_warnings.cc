@@ -226,6 +226,11 @@ std::vector<std::string> LensWarnings(const compositor::FocusFit& fit, bool is_a
   return warnings;
 }
 
+std::string ExposureWarning(const compositor::ExposureFit& fit) {
+  return "The exposure could not be measured: " + fit.reason +
+         ". Nothing is blurred by the camera's motion. State it with --exposure-ms.";
+}
+
 std::vector<std::string> BlurWarnings(const session::CameraSummary& drawn) {
   constexpr double kLargest_px = compositor::DiscKernels::kMaxCircle_px;
   if (!drawn.lens || drawn.lens_places != compositor::kByLayers ||

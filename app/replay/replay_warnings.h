@@ -30,6 +30,9 @@ std::vector<std::string> CloudWarnings(const scene::SceneDescription& scene);
 /// Warnings about the measured lens. `is_asked_for`: a failure to measure is one of them.
 std::vector<std::string> LensWarnings(const compositor::FocusFit& fit, bool is_asked_for);
 
+/// Why the exposure could not be measured.
+std::string ExposureWarning(const compositor::ExposureFit& fit);
+
 /// Warnings about the limits of drawn depth of field.
 std::vector<std::string> BlurWarnings(const session::CameraSummary& drawn);
 

@@ -9,6 +9,7 @@
 
 #include "compositor/lens/blur_parabola.h"
 #include "compositor/lens/focus_course.h"
+#include "compositor/lens/weighed_readings.h"
 
 namespace pleinair::compositor {
 namespace {
@@ -18,66 +19,10 @@ constexpr double kLeastRise_px = 0.15;                       // The blur at an e
 constexpr double kLeastCurvature = 3.0, kLeastMotion = 3.0;  // Standard errors.
 constexpr double kMaxFocusError = 0.1, kMaxFocusErrorShare = 0.1;
 constexpr double kMinOwnBlur_px = 0.2;
-// Student's t for eight groups over the normal distribution, at 95 %.
-constexpr double kFewGroups = 2.365 / 1.96;
-constexpr int kGroups = 8, kRounds = 3;
-
-/// Variance of a reading that the next reading at the same distance shares: edges and pixel grid
-/// are the same there.
-double SharedVariance(double blur_px) {
-  const double shared_px = 0.01 + 0.005 * blur_px;
-  return shared_px * shared_px;
-}
-
-/// How many readings lie at about the distance of each.
-std::vector<double> Neighbours(std::span<const BlurReading> readings) {
-  constexpr double kBin = 0.03;  // A share of the distance.
-  std::map<long, double> bins;
-  const auto bin = [](const BlurReading& r) { return std::lround(std::log(r.dioptres) / kBin); };
-  for (const BlurReading& reading : readings) bins[bin(reading)] += 1.0;
-  std::vector<double> count(readings.size());
-  std::transform(readings.begin(), readings.end(), count.begin(),
-                 [&](const BlurReading& reading) { return bins[bin(reading)]; });
-  return count;
-}
-
-/// Readings, and how much each counts.
-struct Weighed {
-  std::span<const BlurReading> readings;
-  std::vector<double> neighbours;
-  std::vector<double> weights;
-  std::vector<bool> is_moved;
-
-  double Variance(std::size_t i, double squared_blur) const {
-    const double own = readings[i].error_px * readings[i].error_px;
-    return 4.0 * squared_blur * (own + neighbours[i] * SharedVariance(std::sqrt(squared_blur)));
-  }
-  /// From the fitted blur: weights by a reading's own would favour those read too small.
-  void WeighBy(const BlurParabola* fitted) {
-    constexpr double kHuber = 1.345;
-    for (std::size_t i = 0; i < readings.size(); ++i) {
-      const double read = readings[i].blur_px * readings[i].blur_px;
-      const double expected = fitted ? fitted->At(readings[i]) : read;
-      const double variance = Variance(i, std::max(expected, 0.25 * read));
-      const double off = fitted ? std::fabs(read - expected) / std::sqrt(variance) : 0.0;
-      weights[i] = is_moved[i] ? 0.0 : std::min(1.0, kHuber / std::max(off, 1e-9)) / variance;
-    }
-  }
-  /// Sum of squares over degrees of freedom, at least 1: formal errors are scaled by its root.
-  double ReducedChiSquared(const BlurParabola& fitted, int unknowns) const {
-    double sum = 0.0, count = 0.0;
-    for (std::size_t i = 0; i < readings.size(); ++i) {
-      if (!(weights[i] > 0.0)) continue;
-      const double off = readings[i].blur_px * readings[i].blur_px - fitted.At(readings[i]);
-      sum += weights[i] * off * off;
-      count += 1.0;
-    }
-    return std::max(1.0, sum / std::max(1.0, count - unknowns));
-  }
-};
+constexpr int kRounds = 3;
 
 /// Marks the sides that are blurred along one direction of the picture only.
-void MarkMoved(const BlurParabola& fitted, Weighed* weighed) {
+void MarkMoved(const BlurParabola& fitted, WeighedReadings* weighed) {
   constexpr double kMaxRatio = 1.15, kSignificant = 3.0;
   const std::span<const BlurReading> readings = weighed->readings;
   for (std::size_t begin = 0, end = 0; begin < readings.size(); begin = end) {
@@ -106,43 +51,17 @@ void MarkMoved(const BlurParabola& fitted, Weighed* weighed) {
   }
 }
 
-/// Standard errors by leaving out an eighth of the frames in turn; infinite where a part does not
-/// determine the parabola.
-std::pair<double, double> JackknifeErrors(const Weighed& weighed, const ParabolaShape& shape) {
-  const std::span<const BlurReading> readings = weighed.readings;
-  std::vector<std::int64_t> frames;
-  for (const BlurReading& reading : readings) {
-    if (frames.empty() || frames.back() != reading.frame_index) {
-      frames.push_back(reading.frame_index);
-    }
-  }
-  std::array<double, kGroups> curvatures{}, focuses{};
-  std::vector<double> weights(readings.size());
-  for (int group = 0; group < kGroups; ++group) {
-    const auto at = [&](int g) {
-      const std::size_t i = frames.size() * static_cast<std::size_t>(g) / kGroups;
-      return i < frames.size() ? frames[i] : std::numeric_limits<std::int64_t>::max();
-    };
-    for (std::size_t i = 0; i < readings.size(); ++i) {
-      const bool is_out =
-          readings[i].frame_index >= at(group) && readings[i].frame_index < at(group + 1);
-      weights[i] = is_out ? 0.0 : weighed.weights[i];
-    }
-    const auto fitted = FitParabola(readings, weights, shape);
-    if (!fitted || !(fitted->parabola.c > 0.0)) {
-      constexpr double kInfinite = std::numeric_limits<double>::infinity();
-      return {kInfinite, kInfinite};
-    }
-    curvatures[group] = fitted->parabola.c;
-    focuses[group] = fitted->parabola.Focus();
-  }
-  const auto error = [](const std::array<double, kGroups>& values) {
-    double mean = 0.0, squares = 0.0;
-    for (const double value : values) mean += value / kGroups;
-    for (const double value : values) squares += (value - mean) * (value - mean);
-    return kFewGroups * std::sqrt(squares * (kGroups - 1) / kGroups);
-  };
-  return {error(curvatures), error(focuses)};
+/// Standard errors of curvature and focus by leaving out an eighth of the frames in turn; infinite
+/// where a part does not determine the parabola.
+std::pair<double, double> ErrorsByParts(const WeighedReadings& weighed,
+                                        const ParabolaShape& shape) {
+  const auto errors = JackknifeErrors<2>(
+      weighed, [&](std::span<const double> weights) -> std::optional<std::array<double, 2>> {
+        const auto fitted = FitParabola(weighed.readings, weights, shape);
+        if (!fitted || !(fitted->parabola.c > 0.0)) return std::nullopt;
+        return std::array{fitted->parabola.c, fitted->parabola.Focus()};
+      });
+  return {errors[0], errors[1]};
 }
 
 double OwnBlur(const BlurParabola& fitted) {
@@ -153,7 +72,8 @@ double OwnBlur(const BlurParabola& fitted) {
 /// relative to the focus of their time, which `shape` says. Otherwise returns nothing and leaves
 /// all as it is. `from_focus` holds the relative readings.
 std::vector<FocusAt> FollowFocus(double own_blur_px, std::vector<BlurReading>* from_focus,
-                                 Weighed* weighed, FittedParabola* fitted, ParabolaShape* shape) {
+                                 WeighedReadings* weighed, FittedParabola* fitted,
+                                 ParabolaShape* shape) {
   constexpr int kTurns = 8;
   const std::span<const BlurReading> readings = weighed->readings;
   FocusCourse course{fitted->parabola.c, fitted->parabola.e, own_blur_px, fitted->parabola.Focus()};
@@ -210,8 +130,7 @@ FocusFit FitFocus(std::span<const BlurReading> readings, double fx, const KnownL
     fit.reason = "the marker's distance hardly changes";
     return fit;
   }
-  Weighed weighed{readings, Neighbours(readings), std::vector<double>(readings.size()),
-                  std::vector<bool>(readings.size())};
+  WeighedReadings weighed(readings);
   ParabolaShape shape;
   if (known.aperture_m) shape.curvature = std::pow(fx * *known.aperture_m / 4.0, 2);
   shape.focus_dioptres = known.focus_dioptres;
@@ -239,8 +158,7 @@ FocusFit FitFocus(std::span<const BlurReading> readings, double fx, const KnownL
     if (round == 1) MarkMoved(fitted->parabola, &weighed);
     if (round < kRounds) weighed.WeighBy(&fitted->parabola);
   }
-  fit.readings = static_cast<std::size_t>(
-      std::ranges::count_if(weighed.weights, [](double weight) { return weight > 0.0; }));
+  fit.readings = weighed.CountUsed();
   fit.exposure_s = std::sqrt(12.0 * std::max(0.0, fitted->parabola.e));
   if (fit.readings < kMinReadings || 2 * fit.readings < readings.size()) {
     fit.reason = "the camera's motion blurs the marker's edges";
@@ -258,7 +176,7 @@ FocusFit FitFocus(std::span<const BlurReading> readings, double fx, const KnownL
   }
   const BlurParabola& parabola = fitted->parabola;
   const double scale = std::sqrt(weighed.ReducedChiSquared(parabola, 3));
-  const auto [curvature_spread, focus_spread] = JackknifeErrors(weighed, shape);
+  const auto [curvature_spread, focus_spread] = ErrorsByParts(weighed, shape);
   const double curvature_error =
       shape.curvature ? 0.0 : std::max(scale * fitted->curvature_error, curvature_spread);
   if (!fit.changes.empty()) {

@@ -12,6 +12,9 @@ struct LensFigures {
   double largest_circle_px = 0.0;
   int layers = 0;  ///< Most layers of depth in a part of the image; 0: not drawn by layers.
   int peels = 0;   ///< How often surfaces that others hide were drawn in addition.
+  /// Longest streak of what the camera's motion moves during the exposure, pixels. 0: none.
+  double longest_streak_px = 0.0;
+  int views = 0;  ///< Views that were averaged; 0: none were.
 };
 
 }  // namespace pleinair::compositor

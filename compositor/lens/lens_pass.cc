@@ -15,27 +15,34 @@ constexpr float kMinShare = 0.02F;
 
 }  // namespace
 
-Result<double> LensPass::LargestCircle_px(const RenderTargets& targets, const LensFrame& lens_frame,
-                                          const RenderCamera& camera, const ImageTiles& drawn) {
+Result<FrameSpread> LensPass::SpreadOf(const RenderTargets& targets, const LensFrame& lens_frame,
+                                       const RenderCamera& camera, const ImageTiles& drawn) {
   const ThinLens& lens = lens_frame.lens;
+  const std::vector<PixelRect> within = drawn.Rectangles();
   const auto circle = [&](double dioptres) {
+    if (lens.aperture_m == 0.0) return 0.0;
     return std::fabs(
         SignedCircle_px(lens, camera.fx, std::min(dioptres, 1.0 / lens.MinDistance_m())));
   };
+  const auto spread = [&](const DioptreRange& range) {
+    return FrameSpread{
+        std::max(circle(range.min), circle(range.max)),
+        lens_frame.motion ? LongestStreak_px(camera, lens_frame.motion, within, range) : 0.0};
+  };
   const shadows::View& view = lens_frame.view;
-  // All of the scene may be in focus, which needs no image.
-  const double bound = std::max(circle(1.0 / view.near_m), circle(1.0 / view.far_m));
-  if (bound < kMinCircle_px) return bound;
+  // All of the scene may be in focus and at rest, which needs no image.
+  const FrameSpread bound =
+      spread({static_cast<float>(1.0 / view.far_m), static_cast<float>(1.0 / view.near_m)});
+  if (bound.circle_px < kMinCircle_px && bound.streak_px < kMinStreak_px) return bound;
   if (!capture_) {
     PLEINAIR_ASSIGN_OR_RETURN(PinholeCapture capture,
                               PinholeCapture::Create(camera.width, camera.height));
     capture_.emplace(std::move(capture));
   }
-  const std::vector<PixelRect> within = drawn.Rectangles();
   pinhole_ = capture_->Capture(targets, view, within);
   const DioptreRange range = AffectedDioptres(pinhole_, within);
-  if (range.min > range.max) return 0.0;
-  return std::max(circle(range.min), circle(range.max));
+  if (range.min > range.max) return FrameSpread{};
+  return spread(range);
 }
 
 int LensPass::Spread_px(double circle_px) {
@@ -61,23 +68,23 @@ Result<const RealOccluders*> LensPass::DrawLayers(
   return Occluders(occluder_share_, within, bind_frame);
 }
 
-Result<void> LensPass::Draw(const RenderTargets& targets, const LensFrame& lens_frame,
+Result<void> LensPass::Draw(const RenderTargets& targets, const AveragedViews& views,
                             std::span<const PixelRect> within, const LensViews::DrawFrame& draw) {
   if (!views_) {
-    PLEINAIR_ASSIGN_OR_RETURN(LensViews views,
+    PLEINAIR_ASSIGN_OR_RETURN(LensViews created,
                               LensViews::Create(targets.ratio().width(), targets.ratio().height()));
-    views_.emplace(std::move(views));
+    views_.emplace(std::move(created));
   }
-  views_->Draw(targets, lens_frame, within, draw);
+  views_->Draw(targets, views, within, draw);
   return {};
 }
 
 Result<const RealOccluders*> LensPass::OccludersIn(const RenderTargets& targets,
-                                                   const LensFrame& lens_frame,
+                                                   const AveragedViews& views,
                                                    std::span<const PixelRect> within,
                                                    const LensViews::DrawFrame& draw_real,
                                                    const std::function<void()>& bind_frame) {
-  if (!views_->MeasureOccluders(targets, lens_frame, within, draw_real)) return nullptr;
+  if (!views_->MeasureOccluders(targets, views, within, draw_real)) return nullptr;
   return Occluders(views_->occluder_share(), within, bind_frame);
 }
 

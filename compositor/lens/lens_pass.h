@@ -5,6 +5,7 @@
 #include <span>
 
 #include "base/error.h"
+#include "compositor/lens/exposure_views.h"
 #include "compositor/lens/layered_lens.h"
 #include "compositor/lens/lens_figures.h"
 #include "compositor/lens/lens_views.h"
@@ -16,23 +17,26 @@
 
 namespace pleinair::compositor {
 
-/// Depth of field of the virtual image (docs/guide/lens.md). Takes memory on first use.
-/// Needs a current OpenGL context; move-only.
+/// Depth of field and motion blur of the virtual image (docs/guide/lens.md). Takes memory on first
+/// use. Needs a current OpenGL context; move-only.
 class LensPass {
  public:
   /// Smaller circles of confusion are not drawn, camera pixels.
   static constexpr double kMinCircle_px = DiscKernels::kMinCircle_px;
 
-  /// Returns the diameter of the largest circle of confusion over all that virtual objects affect
-  /// in the drawn `targets`, render pixels. Errors as PinholeCapture::Create().
-  Result<double> LargestCircle_px(const RenderTargets& targets, const LensFrame& lens_frame,
-                                  const RenderCamera& camera, const ImageTiles& drawn);
+  /// Nor are shorter streaks.
+  static constexpr double kMinStreak_px = 0.3;
+
+  /// Returns how far all that virtual objects affect in the drawn `targets` is spread at most.
+  /// Errors as PinholeCapture::Create().
+  Result<FrameSpread> SpreadOf(const RenderTargets& targets, const LensFrame& lens_frame,
+                               const RenderCamera& camera, const ImageTiles& drawn);
 
   /// Pixels by which circles of this diameter spread what is drawn. What the pinhole image hides
   /// may have a larger circle than all that it shows: an eighth and two pixels are added.
   static int Spread_px(double circle_px);
 
-  /// Replaces the drawn image in `targets` by that of the lens. Call LargestCircle_px() first.
+  /// Replaces the drawn image in `targets` by that of the lens. Call SpreadOf() first.
   /// `camera`: that of the targets. `bind_frame` as OccludersIn(). Sets
   /// the layers and peels of `figures`. Returns as that, too. Errors as PinholeCapture::Create()
   /// and RealOccluders::Create().
@@ -44,14 +48,13 @@ class LensPass {
                                           LensFigures* figures);
 
   /// As LensViews::Draw(). Errors as LensViews::Create().
-  Result<void> Draw(const RenderTargets& targets, const LensFrame& lens_frame,
+  Result<void> Draw(const RenderTargets& targets, const AveragedViews& views,
                     std::span<const PixelRect> within, const LensViews::DrawFrame& draw);
 
-  /// Real surfaces that cover objects over a part of the lens, after Draw(); null without any.
+  /// Real surfaces that cover objects in a part of the views, after Draw(); null without any.
   /// `draw_real`: as LensViews::MeasureOccluders(). `bind_frame` has to bind the camera image, as
   /// RealOccluders::Estimate() requires. Errors as RealOccluders::Create().
-  Result<const RealOccluders*> OccludersIn(const RenderTargets& targets,
-                                           const LensFrame& lens_frame,
+  Result<const RealOccluders*> OccludersIn(const RenderTargets& targets, const AveragedViews& views,
                                            std::span<const PixelRect> within,
                                            const LensViews::DrawFrame& draw_real,
                                            const std::function<void()>& bind_frame);

@@ -8,13 +8,20 @@
 
 #include "compositor/lens/lens_view.h"
 #include "compositor/lens/nearest_fill.h"
-#include "compositor/lens/stop_places.h"
 
 namespace pleinair::compositor {
 namespace {
 
-// Shares of the lens that count as occluded and as showing an object.
+// Shares of the views that count as occluded and as showing an object.
 constexpr float kMinShare = 0.02F;
+
+/// Weight of a view. All are 1 / count but for rounding to multiples of 2⁻²⁰, whose sums are exact:
+/// pixels that no view changes keep their bytes.
+float WeightOf(std::size_t view, std::size_t count) {
+  constexpr std::size_t kUnits = std::size_t{1} << 20U;
+  const std::size_t units = (view + 1) * kUnits / count - view * kUnits / count;
+  return static_cast<float>(units) / static_cast<float>(kUnits);
+}
 
 Image<float> Downloaded(const gl::GlTexture& texture, GLenum format, int channels) {
   Image<float> image(texture.width(), texture.height(), channels);
@@ -51,14 +58,13 @@ Result<LensViews> LensViews::Create(int width, int height) {
   return views;
 }
 
-void LensViews::AddPlaces(const RenderTargets& targets, const LensFrame& lens_frame,
-                          std::span<const PixelRect> within, const DrawFrame& draw,
-                          const gl::GlFramebuffer& sums, const gl::GlProgram& program,
-                          const BindInputs& bind) const {
-  const float weight = 1.0F / static_cast<float>(lens_frame.places);
-  for (const Vec2 place : StopPlaces(lens_frame.lens.stop, lens_frame.places)) {
-    draw(SeenThroughPlace(lens_frame.frame, lens_frame.view, lens_frame.lens,
-                          place * (lens_frame.lens.aperture_m / 2)));
+void LensViews::AddViews(const RenderTargets& targets, const AveragedViews& views,
+                         std::span<const PixelRect> within, const DrawFrame& draw,
+                         const gl::GlFramebuffer& sums, const gl::GlProgram& program,
+                         const BindInputs& bind) const {
+  const std::size_t count = views.frames.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    draw(views.frames[i]);
     sums.Bind();
     glEnable(GL_BLEND);
     glBlendFunc(GL_ONE, GL_ONE);
@@ -66,18 +72,18 @@ void LensViews::AddPlaces(const RenderTargets& targets, const LensFrame& lens_fr
     targets.depth().Bind(0);
     bind();
     program.Use();
-    SetLensDepth(program, lens_frame.view, targets.samples());
-    program.Set("u_weight", weight);
+    SetLensDepth(program, views.planes, targets.samples());
+    program.Set("u_weight", WeightOf(i, count));
     DrawWithin(within);
     glDisable(GL_BLEND);
   }
 }
 
-void LensViews::Draw(const RenderTargets& targets, const LensFrame& lens_frame,
+void LensViews::Draw(const RenderTargets& targets, const AveragedViews& views,
                      std::span<const PixelRect> within, const DrawFrame& draw) const {
   sums_.pictures.Bind();
   for (const int sum : {0, 1, 2}) sums_.pictures.ClearColor(sum, 0, 0, 0, 0);
-  AddPlaces(targets, lens_frame, within, draw, sums_.pictures, programs_.view, [&] {
+  AddViews(targets, views, within, draw, sums_.pictures, programs_.view, [&] {
     targets.ratio().Bind(1);
     targets.objects().Bind(2);
     targets.ids().Bind(3);
@@ -90,7 +96,7 @@ void LensViews::Draw(const RenderTargets& targets, const LensFrame& lens_frame,
   DrawWithin(within);
 }
 
-bool LensViews::MeasureOccluders(const RenderTargets& targets, const LensFrame& lens_frame,
+bool LensViews::MeasureOccluders(const RenderTargets& targets, const AveragedViews& views,
                                  std::span<const PixelRect> within, const DrawFrame& draw_real) {
   const Image<float> sums = Downloaded(sums_.distance, GL_RG, 2);
   Image<float> distances(sums.width(), sums.height()), shares(sums.width(), sums.height());
@@ -103,8 +109,8 @@ bool LensViews::MeasureOccluders(const RenderTargets& targets, const LensFrame& 
 
   sums_.occluders.Bind();
   sums_.occluders.ClearColor(0, 0, 0, 0, 0);
-  AddPlaces(targets, lens_frame, within, draw_real, sums_.occluders, programs_.occluders,
-            [&] { virtual_.Bind(1); });
+  AddViews(targets, views, within, draw_real, sums_.occluders, programs_.occluders,
+           [&] { virtual_.Bind(1); });
   const Image<float> occluded = Downloaded(sums_.share, GL_RED, 1);
   for (std::size_t i = 0; i < occluded.size(); ++i) {
     if (occluded.data()[i] > kMinShare && shares.data()[i] > kMinShare) return true;

@@ -6,7 +6,6 @@
 
 #include "base/error.h"
 #include "base/image.h"
-#include "compositor/lens/thin_lens.h"
 #include "compositor/passes/frame_uniforms.h"
 #include "compositor/passes/render_targets.h"
 #include "compositor/surfaces/image_tiles.h"
@@ -18,17 +17,15 @@
 
 namespace pleinair::compositor {
 
-/// A frame with the view that it shows and the lens that it is seen through.
-struct LensFrame {
-  const FrameUniforms& frame;
-  const shadows::View& view;
-  const ThinLens& lens;
-  int places = 32;  ///< Places on the stop, drawn one after another.
+/// Views of a scene that count equally in their mean.
+struct AveragedViews {
+  shadows::View planes;  ///< Its near and far planes are those of all.
+  std::vector<FrameUniforms> frames;
 };
 
-/// Draws the virtual image through many places of the lens's stop and averages the linear light.
-/// Many places give the image of a thin lens, with all that its parts hide from one another. Needs
-/// a current OpenGL context; move-only.
+/// Draws the virtual image from many places, one after another, and averages the linear light. Many
+/// places on a lens's stop, or of a moving camera, give what it sees in all, with what its parts
+/// hide from one another. Needs a current OpenGL context; move-only.
 class LensViews {
  public:
   /// Draws a scene as a frame shows it.
@@ -39,27 +36,27 @@ class LensViews {
   /// gl::GlProgram::Create().
   static Result<LensViews> Create(int width, int height);
 
-  /// Calls `draw` for each place on the stop. It has to draw targets.ratio() and targets.objects(),
+  /// Calls `draw` for each view. It has to draw targets.ratio() and targets.objects(),
   /// which have the means afterwards. `within`: all pixels drawn, in disjoint rectangles.
-  void Draw(const RenderTargets& targets, const LensFrame& lens_frame,
+  void Draw(const RenderTargets& targets, const AveragedViews& views,
             std::span<const PixelRect> within, const DrawFrame& draw) const;
 
   /// Measures occluders after Draw(). `draw_real` has to draw the real surfaces alone. Returns
-  /// whether real surfaces cover objects over a part of the lens in any pixel. occluder_share()
+  /// whether real surfaces cover objects in a part of the views in any pixel. occluder_share()
   /// then has the share of each pixel.
-  bool MeasureOccluders(const RenderTargets& targets, const LensFrame& lens_frame,
+  bool MeasureOccluders(const RenderTargets& targets, const AveragedViews& views,
                         std::span<const PixelRect> within, const DrawFrame& draw_real);
-  /// Share of the lens that shows a real surface in front of the objects, one channel.
+  /// Share of the views that shows a real surface in front of the objects, one channel.
   const gl::GlTexture& occluder_share() const { return sums_.share; }
 
  private:
   using BindInputs = std::function<void()>;
-  /// Draws each place by `draw`, and adds what `program` makes of it to `sums`. `bind`: the inputs
+  /// Draws each view by `draw`, and adds what `program` makes of it to `sums`. `bind`: the inputs
   /// of `program` besides the depth.
-  void AddPlaces(const RenderTargets& targets, const LensFrame& lens_frame,
-                 std::span<const PixelRect> within, const DrawFrame& draw,
-                 const gl::GlFramebuffer& sums, const gl::GlProgram& program,
-                 const BindInputs& bind) const;
+  void AddViews(const RenderTargets& targets, const AveragedViews& views,
+                std::span<const PixelRect> within, const DrawFrame& draw,
+                const gl::GlFramebuffer& sums, const gl::GlProgram& program,
+                const BindInputs& bind) const;
 
   struct Sums {
     gl::GlTexture ratio, objects, distance, share;

@@ -11,18 +11,6 @@ namespace {
 
 constexpr double kNearM = 0.02;
 
-glm::dmat4 CameraFromMarkerMatrix(const Transform<Camera, Marker>& camera_from_marker) {
-  glm::dmat4 matrix(1.0);
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) {
-      matrix[column][row] = camera_from_marker.rotation(row, column);
-    }
-  }
-  const Vec3 t = camera_from_marker.translation_m;
-  matrix[3] = glm::dvec4(t.x, t.y, t.z, 1.0);
-  return matrix;
-}
-
 glm::dvec3 Corner(const shadows::Box& box, int corner) {
   return {(corner & 1) != 0 ? box.max.x : box.min.x, (corner & 2) != 0 ? box.max.y : box.min.y,
           (corner & 4) != 0 ? box.max.z : box.min.z};
@@ -44,6 +32,18 @@ std::pair<double, double> DepthRange(const Transform<Camera, Marker>& camera_fro
 }
 
 }  // namespace
+
+glm::dmat4 CameraFromMarkerMatrix(const Transform<Camera, Marker>& camera_from_marker) {
+  glm::dmat4 matrix(1.0);
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      matrix[column][row] = camera_from_marker.rotation(row, column);
+    }
+  }
+  const Vec3 t = camera_from_marker.translation_m;
+  matrix[3] = glm::dvec4(t.x, t.y, t.z, 1.0);
+  return matrix;
+}
 
 shadows::View ViewOf(const RenderCamera& camera,
                      const Transform<Camera, Marker>& camera_from_marker,

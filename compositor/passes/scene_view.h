@@ -12,6 +12,9 @@
 
 namespace pleinair::compositor {
 
+/// The transform as a matrix.
+glm::dmat4 CameraFromMarkerMatrix(const Transform<Camera, Marker>& camera_from_marker);
+
 /// View frustum of the render camera. Near and far planes fit the `bounds` of the scene as tightly
 /// as the box allows.
 shadows::View ViewOf(const RenderCamera& camera,

@@ -17,14 +17,16 @@ constexpr double kBadFit = 0.12;  // RMS of a side's fit, relative to the step f
 constexpr double kMinBlur_px = 0.2;
 
 /// Least-squares fit of black + (white − black) Φ((d − shift) / blur) by Gauss–Newton with damped
-/// steps (Levenberg 1944). With a circle of confusion, Φ is blurred by its disc. Returns nothing if
+/// steps (Levenberg 1944). With a circle of confusion, Φ is blurred by its disc, and with a
+/// streak by its box. Returns nothing if
 /// the pixels are no such edge.
-std::optional<double> FitBlur(const std::vector<EdgePixel>& pixels, double circle_px) {
+std::optional<double> FitBlur(const std::vector<EdgePixel>& pixels, double circle_px,
+                              double streak_px) {
   double shift = 0.0, blur = 0.7, damping = 1e-3;
   const auto cost_of = [&](double s, double b) {
     double cost = 0.0;
     for (const EdgePixel& p : pixels) {
-      const double r = p.value - DefocusedEdge(p.distance_px - s, circle_px, b).value;
+      const double r = p.value - MovedEdge(p.distance_px - s, circle_px, streak_px, b).value;
       cost += r * r;
     }
     return cost;
@@ -33,7 +35,7 @@ std::optional<double> FitBlur(const std::vector<EdgePixel>& pixels, double circl
   for (int iteration = 0; iteration < 30; ++iteration) {
     double a00 = 0.0, a01 = 0.0, a11 = 0.0, g0 = 0.0, g1 = 0.0;
     for (const EdgePixel& p : pixels) {
-      const EdgeProfile edge = DefocusedEdge(p.distance_px - shift, circle_px, blur);
+      const EdgeProfile edge = MovedEdge(p.distance_px - shift, circle_px, streak_px, blur);
       const double residual = p.value - edge.value;
       const double by_shift = -edge.slope, by_blur = edge.by_blur;
       a00 += by_shift * by_shift;
@@ -66,8 +68,7 @@ std::optional<double> FitBlur(const std::vector<EdgePixel>& pixels, double circl
 
 }  // namespace
 
-std::vector<double> EstimateEdgeBlur(const MarkerInImage& marker,
-                                     const std::array<double, 4>& circles_px) {
+std::vector<double> EstimateEdgeBlur(const MarkerInImage& marker, const KnownSpread& known) {
   std::vector<double> blurs;
   EdgeStripe stripe;
   for (int side = 0; side < 4; ++side) {
@@ -79,7 +80,8 @@ std::vector<double> EstimateEdgeBlur(const MarkerInImage& marker,
       pixels.insert(pixels.end(), stripe.pixels.begin(), stripe.pixels.end());
     }
     if (static_cast<int>(pixels.size()) < kMinPixels) continue;
-    if (const auto blur = FitBlur(pixels, circles_px[side])) blurs.push_back(*blur);
+    if (const auto blur = FitBlur(pixels, known.circles_px[side], known.streaks_px[side]))
+      blurs.push_back(*blur);
   }
   return blurs;
 }

@@ -7,11 +7,15 @@
 
 namespace pleinair::compositor {
 
+/// What else blurs the marker's sides, pixels: top, left, bottom, right.
+struct KnownSpread {
+  std::array<double, 4> circles_px{};  ///< Diameters of their circles of confusion.
+  std::array<double, 4> streaks_px{};  ///< How far they move across themselves while exposed.
+};
+
 /// Estimates the blur of each side of the outer black square: standard deviation in pixels. Returns
 /// one value per side that is visible well enough, at most four. Omits places where the light
-/// changes or an occluder lies. `circles_px`: diameter of each side's circle of confusion, which
-/// the estimates then exclude. Sides: top, left, bottom, right.
-std::vector<double> EstimateEdgeBlur(const MarkerInImage& marker,
-                                     const std::array<double, 4>& circles_px = {});
+/// changes or an occluder lies. The estimates exclude what is `known`.
+std::vector<double> EstimateEdgeBlur(const MarkerInImage& marker, const KnownSpread& known = {});
 
 }  // namespace pleinair::compositor

@@ -8,6 +8,7 @@
 #include "base/camera_response.h"
 #include "base/frames.h"
 #include "base/image.h"
+#include "compositor/lens/camera_motion.h"
 #include "compositor/lens/thin_lens.h"
 #include "scene/marker_reflectance.h"
 
@@ -31,12 +32,13 @@ struct CameraLook {
 /// square, noise from its black band and the white around it. Places where the light changes or an
 /// occluder lies are omitted. Returns nothing where the marker is too small (bands below five
 /// pixels) or mostly hidden. With a lens, the blur is that in focus: what remains beside the circle
-/// of confusion of each side.
+/// of confusion of each side. With a motion, it is that at rest, too.
 std::optional<CameraLook> MeasureCameraLook(ImageView<const std::uint8_t> rgb,
                                             const CameraModel& camera,
                                             const Transform<Camera, Marker>& camera_from_marker,
                                             const scene::MarkerReflectance& marker,
                                             const CameraResponse& response,
-                                            const std::optional<ThinLens>& lens = {});
+                                            const std::optional<ThinLens>& lens = {},
+                                            const CameraMotion& motion = {});
 
 }  // namespace pleinair::compositor

@@ -46,4 +46,19 @@ EdgeProfile DefocusedEdge(double distance_px, double circle_px, double blur_px) 
   return sum;
 }
 
+EdgeProfile MovedEdge(double distance_px, double circle_px, double streak_px, double blur_px) {
+  constexpr double kMinStreak_px = 0.05, kStep_px = 0.5;
+  if (streak_px < kMinStreak_px) return DefocusedEdge(distance_px, circle_px, blur_px);
+  const int parts = static_cast<int>(std::ceil(streak_px / kStep_px)) + 1;
+  EdgeProfile mean;
+  for (int i = 0; i < parts; ++i) {
+    const double at = distance_px + streak_px * ((i + 0.5) / parts - 0.5);
+    const EdgeProfile edge = DefocusedEdge(at, circle_px, blur_px);
+    mean.value += edge.value / parts;
+    mean.slope += edge.slope / parts;
+    mean.by_blur += edge.by_blur / parts;
+  }
+  return mean;
+}
+
 }  // namespace pleinair::compositor

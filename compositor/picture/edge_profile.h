@@ -12,4 +12,8 @@ struct EdgeProfile {
 /// distance from the edge towards the white. Pixels.
 EdgeProfile DefocusedEdge(double distance_px, double circle_px, double blur_px);
 
+/// The same after a box of this length, too: an edge that moves so far across itself during the
+/// exposure.
+EdgeProfile MovedEdge(double distance_px, double circle_px, double streak_px, double blur_px);
+
 }  // namespace pleinair::compositor

@@ -187,21 +187,33 @@ std::optional<BlurReading> ReadBlur(const SideProfile& profile, double own_blur_
   return reading;
 }
 
+namespace {
+
+// Of the search for the own blur of a lens.
+constexpr int kRepetitions = 5;
+constexpr double kUsualBlur_px = 0.4, kSettled_px = 0.003;
+
+std::vector<BlurReading> ReadAll(const std::vector<SideProfile>& profiles, double own_blur_px) {
+  std::vector<std::optional<BlurReading>> tried(profiles.size());
+  ParallelFor(profiles.size(), 0,
+              [&](std::size_t i) { tried[i] = ReadBlur(profiles[i], own_blur_px); });
+  std::vector<BlurReading> read;
+  read.reserve(tried.size());
+  for (const auto& reading : tried) {
+    if (reading) read.push_back(*reading);
+  }
+  return read;
+}
+
+}  // namespace
+
 FocusFit MeasureFocus(const std::vector<SideProfile>& profiles, double fx, const KnownLens& known,
                       std::vector<BlurReading>* readings) {
-  constexpr int kRepetitions = 5;
-  constexpr double kUsualBlur_px = 0.4, kSettled_px = 0.003;
   double own_blur_px = kUsualBlur_px;
   FocusFit fit;
   std::vector<BlurReading> read;
   for (int repetition = 0; repetition < kRepetitions; ++repetition) {
-    std::vector<std::optional<BlurReading>> tried(profiles.size());
-    ParallelFor(profiles.size(), 0,
-                [&](std::size_t i) { tried[i] = ReadBlur(profiles[i], own_blur_px); });
-    read.clear();
-    for (const auto& reading : tried) {
-      if (reading) read.push_back(*reading);
-    }
+    read = ReadAll(profiles, own_blur_px);
     fit = FitFocus(read, fx, known);
     if (!(fit.in_focus_blur_px > 0.0)) break;
     const double change = fit.in_focus_blur_px - own_blur_px;
@@ -209,6 +221,20 @@ FocusFit MeasureFocus(const std::vector<SideProfile>& profiles, double fx, const
     if (std::fabs(change) < kSettled_px) break;
   }
   if (readings != nullptr) *readings = std::move(read);
+  return fit;
+}
+
+ExposureFit MeasureExposure(const std::vector<SideProfile>& profiles, double own_blur_px,
+                            double frame_interval_s) {
+  const bool is_known = own_blur_px > 0.0;
+  double blur_px = is_known ? own_blur_px : kUsualBlur_px;
+  ExposureFit fit;
+  for (int repetition = 0; repetition < kRepetitions; ++repetition) {
+    fit = FitExposure(ReadAll(profiles, blur_px), frame_interval_s);
+    const double change_px = fit.still_blur_px - blur_px;
+    if (is_known || !(fit.still_blur_px > 0.0) || std::fabs(change_px) < kSettled_px) break;
+    blur_px = fit.still_blur_px;
+  }
   return fit;
 }
 

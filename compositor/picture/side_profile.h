@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/frames.h"
+#include "compositor/lens/exposure_fit.h"
 #include "compositor/lens/focus_fit.h"
 #include "compositor/picture/marker_in_image.h"
 
@@ -43,5 +44,10 @@ std::optional<BlurReading> ReadBlur(const SideProfile& profile, double own_blur_
 /// as FitFocus().
 FocusFit MeasureFocus(const std::vector<SideProfile>& profiles, double fx, const KnownLens& known,
                       std::vector<BlurReading>* readings);
+
+/// The time of exposure by the same profiles, with their speeds. `own_blur_px`: the lens's own blur
+/// by MeasureFocus(); 0: it is found by repetition. Errors: as FitExposure().
+ExposureFit MeasureExposure(const std::vector<SideProfile>& profiles, double own_blur_px,
+                            double frame_interval_s);
 
 }  // namespace pleinair::compositor

@@ -29,6 +29,21 @@ std::optional<double> PositiveNumber(const Exif& exif, int tag) {
   return value && *value > 0.0 ? value : std::nullopt;
 }
 
+/// A number of each photograph; one where all are the same, none where one lacks it.
+std::vector<double> OfAll(const std::vector<PhotoLens>& photos,
+                          std::optional<double> PhotoLens::*number) {
+  std::vector<double> numbers;
+  numbers.reserve(photos.size());
+  for (const PhotoLens& photo : photos) {
+    if (!(photo.*number)) return {};
+    numbers.push_back(*(photo.*number));
+  }
+  if (std::ranges::all_of(numbers, [&](double value) { return value == numbers.front(); })) {
+    numbers.resize(1);
+  }
+  return numbers;
+}
+
 }  // namespace
 
 PhotoLens LensOfPhoto(std::string_view jpeg) {
@@ -44,29 +59,21 @@ PhotoLens LensOfPhoto(std::string_view jpeg) {
     // Nearer than its own focal length no lens focuses.
     if (*distance_m > focal_length_mm.value_or(0.0) * 1e-3) lens.focus_dioptres = 1.0 / *distance_m;
   }
+  lens.exposure_s = PositiveNumber(*exif, EXIF_TAG_EXPOSURE_TIME);
   return lens;
 }
 
 std::optional<scene::LensDescription> LensOfPhotos(std::span<const std::filesystem::path> files) {
   if (files.empty()) return std::nullopt;
   const PhotoLens first = LensOfFile(files.front());
-  if (!first.aperture_m && !first.focus_dioptres) return std::nullopt;
+  if (!first.aperture_m && !first.focus_dioptres && !first.exposure_s) return std::nullopt;
   scene::LensDescription lens;
   lens.aperture_m = first.aperture_m;
-  if (!first.focus_dioptres) return lens;
-  lens.focus_dioptres.reserve(files.size());
-  for (const std::filesystem::path& file : files) {
-    const std::optional<double> focus = LensOfFile(file).focus_dioptres;
-    if (!focus) {
-      lens.focus_dioptres.clear();
-      return lens;
-    }
-    lens.focus_dioptres.push_back(*focus);
-  }
-  if (std::ranges::all_of(lens.focus_dioptres,
-                          [&](double focus) { return focus == *first.focus_dioptres; })) {
-    lens.focus_dioptres.resize(1);
-  }
+  if (!first.focus_dioptres && !first.exposure_s) return lens;
+  std::vector<PhotoLens> photos(files.size());
+  std::transform(files.begin(), files.end(), photos.begin(), LensOfFile);
+  lens.focus_dioptres = OfAll(photos, &PhotoLens::focus_dioptres);
+  lens.exposure_s = OfAll(photos, &PhotoLens::exposure_s);
   return lens;
 }
 

@@ -152,31 +152,34 @@ fs::path FramesOf(const RecordingManifest& manifest, const fs::path& folder) {
   return named.lexically_normal();
 }
 
-/// A list of focus distances must have one a frame.
-Result<void> CheckFocusList(const Recording& recording) {
+/// Lists of focus distances and of exposures must have one a frame.
+Result<void> CheckLensLists(const Recording& recording) {
   if (!recording.scene || !recording.scene->camera.recorded_lens) return {};
-  const std::size_t focus = recording.scene->camera.recorded_lens->focus_dioptres.size();
+  const scene::LensDescription& lens = *recording.scene->camera.recorded_lens;
   const std::optional<std::int64_t> frames = recording.frames->FrameCount();
-  if (focus < 2 || !frames || !recording.frames->CountsExactly() ||
-      static_cast<std::int64_t>(focus) == *frames) {
-    return {};
+  if (!frames || !recording.frames->CountsExactly()) return {};
+  for (const auto& [count, what] : {std::pair{lens.focus_dioptres.size(), " focus distances for "},
+                                    std::pair{lens.exposure_s.size(), " exposures for "}}) {
+    if (count < 2 || static_cast<std::int64_t>(count) == *frames) continue;
+    return InputError((recording.path / "recording.json").string(),
+                      "\"lens\" has a list of " + std::to_string(count) + what +
+                          std::to_string(*frames) + " frames",
+                      "give one value, or one for each frame");
   }
-  return InputError((recording.path / "recording.json").string(),
-                    "\"lens\" has a list of " + std::to_string(focus) + " focus distances for " +
-                        std::to_string(*frames) + " frames",
-                    "give one value, or one for each frame");
+  return {};
 }
 
 /// What the images state of their lens completes what the recording's description leaves out.
 void AddLensOfImages(const std::vector<fs::path>& files, Recording* recording) {
   if (!recording->scene) return;
   std::optional<scene::LensDescription>& recorded = recording->scene->camera.recorded_lens;
-  if (recorded && recorded->IsComplete()) return;
+  if (recorded && recorded->IsComplete() && !recorded->exposure_s.empty()) return;
   const std::optional<scene::LensDescription> stated = LensOfPhotos(files);
   if (!stated) return;
   if (!recorded) recorded.emplace();
   if (recorded->focus_dioptres.empty()) recorded->focus_dioptres = stated->focus_dioptres;
   if (!recorded->aperture_m) recorded->aperture_m = stated->aperture_m;
+  if (recorded->exposure_s.empty()) recorded->exposure_s = stated->exposure_s;
 }
 
 Result<Recording> OpenOwnFolder(const fs::path& folder, const RecordingOptions& options) {
@@ -342,7 +345,7 @@ Result<Recording> OpenRecording(const fs::path& path, const RecordingOptions& op
     // The path of a description file stands for its recording's folder.
     if (name == "recording.json" || name == "scene.json") {
       PLEINAIR_ASSIGN_OR_RETURN(Recording recording, OpenOwnFolder(path.parent_path(), options));
-      PLEINAIR_RETURN_IF_ERROR(CheckFocusList(recording));
+      PLEINAIR_RETURN_IF_ERROR(CheckLensLists(recording));
       return recording;
     }
     return OpenPlainFile(path, options);
@@ -352,7 +355,7 @@ Result<Recording> OpenRecording(const fs::path& path, const RecordingOptions& op
   }
   if (IsNamed(path / "recording.json") || IsNamed(path / "scene.json")) {
     PLEINAIR_ASSIGN_OR_RETURN(Recording recording, OpenOwnFolder(path, options));
-    PLEINAIR_RETURN_IF_ERROR(CheckFocusList(recording));
+    PLEINAIR_RETURN_IF_ERROR(CheckLensLists(recording));
     return recording;
   }
   for (const fs::path& camera : {path / "mav0" / "cam0", path / "cam0", path}) {

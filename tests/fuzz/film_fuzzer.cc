@@ -113,6 +113,7 @@ void TryTags(std::string_view text) {
                                                    {"model", std::string(text)}}));
   const auto lens = pleinair::devices::LensOfPhoto(text);
   Require(!lens.aperture_m || *lens.aperture_m > 0.0);
+  Require(!lens.exposure_s || (*lens.exposure_s > 0.0 && std::isfinite(*lens.exposure_s)));
   Require(!lens.focus_dioptres ||
           (*lens.focus_dioptres >= 0.0 && std::isfinite(*lens.focus_dioptres)));
   const auto tags = pleinair::devices::TagsOfPhoto(text);

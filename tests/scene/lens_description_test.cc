@@ -50,6 +50,24 @@ TEST(LensDescription, ReadsMetadataWithOneFocusAFrame) {
   EXPECT_FALSE(Json("")->camera.lens);
 }
 
+TEST(LensDescription, ReadsExposures) {
+  EXPECT_THAT(Toml("exposure_ms = 8.5\n")->camera.lens->exposure_s,
+              ElementsAre(::testing::DoubleEq(8.5e-3)));
+  EXPECT_FALSE(Toml("exposure_ms = 8.5\n")->camera.lens->IsComplete());
+  EXPECT_THAT(Json("\"exposure_ms\": 4")->camera.recorded_lens->exposure_s,
+              ElementsAre(::testing::DoubleEq(4e-3)));
+  EXPECT_THAT(Json("\"exposure_ms\": [4, 2]")->camera.recorded_lens->exposure_s,
+              ElementsAre(::testing::DoubleEq(4e-3), ::testing::DoubleEq(2e-3)));
+  const auto refused = [](const Result<SceneFacts>& read, const char* message) {
+    EXPECT_THAT(tests::MessageOf(read), HasSubstr(message));
+  };
+  refused(Toml("exposure_ms = 0\n"), "\"exposure_ms\" is not greater than zero");
+  refused(Toml("exposure_ms = nan\n"), "not finite");
+  refused(Json("\"exposure_ms\": [4, -2]"), "\"exposure_ms\" is not greater than zero");
+  refused(Json("\"exposure_ms\": []"), "empty");
+  refused(Json("\"exposure_ms\": \"long\""), "site/recording.json");
+}
+
 TEST(LensDescription, RefusesImpossibleLensesByFile) {
   const auto toml = [](const std::string& keys) { return tests::MessageOf(Toml(keys)); };
   const auto json = [](const std::string& keys) { return tests::MessageOf(Json(keys)); };

@@ -137,5 +137,28 @@ TEST(LensMeasurement, SeparatesMotionFromFocus) {
   EXPECT_NEAR(unseen.aperture_m, how.aperture_m, 0.06 * how.aperture_m);
 }
 
+TEST(LensMeasurement, ReadsTheExposureAtOneDistance) {
+  // A lens in focus, and one 3 pixels out of it.
+  for (const double aperture_m : {0.0, 0.012}) {
+    const Filmed how{.aperture_m = aperture_m,
+                     .focus_m = aperture_m > 0.0 ? 1.35 : 1.0,
+                     .nearest_m = 0.98,
+                     .farthest_m = 1.02,
+                     .moved_px = 5.0,
+                     .knows_motion = true};
+    const auto fit = compositor::MeasureExposure(Film(how), 0.0, 1.0 / 30.0);
+    ASSERT_TRUE(fit.is_measured()) << fit.reason;
+    EXPECT_NEAR(fit.exposure_s, 0.5 / 30.0, 0.06 * 0.5 / 30.0) << aperture_m;
+    EXPECT_LT(fit.error_s, 0.1 * fit.exposure_s);
+  }
+  // Motion of which the exposure shows nothing.
+  Filmed sharp{.aperture_m = 0.0, .nearest_m = 0.98, .farthest_m = 1.02};
+  std::vector<compositor::SideProfile> film = Film(sharp);
+  for (compositor::SideProfile& side : film) {
+    side.place.squared_speed = side.place.side % 2 == 1 ? 1e5 : 1e3;
+  }
+  EXPECT_FALSE(compositor::MeasureExposure(film, 0.0, 1.0 / 30.0).is_measured());
+}
+
 }  // namespace
 }  // namespace pleinair::session

@@ -218,7 +218,7 @@ std::string Light(const ReplayReport& report) {
   return html;
 }
 
-/// The lens that the marker's blur shows; empty where it was not looked for.
+/// The lens and the exposure that the marker's blur shows; empty where it was not looked for.
 std::string Lens(const ReplayReport& report) {
   if (!report.film.lens) return "";
   const compositor::FocusFit& fit = report.film.lens->fit;
@@ -233,6 +233,12 @@ std::string Lens(const ReplayReport& report) {
     html += Card(fmt::format("{:.2f} px", fit.in_focus_blur_px), "blur of what is in focus");
   } else {
     html += Card("not measured", fit.reason);
+  }
+  const compositor::ExposureFit& exposure = report.film.lens->exposure;
+  if (exposure.is_measured()) {
+    html +=
+        Card(fmt::format("{:.3g} ± {:.2g} ms", 1e3 * exposure.exposure_s, 1e3 * exposure.error_s),
+             "exposure, by the edges that move");
   }
   return html + "</div>\n" + ReadingsPlot(*report.film.lens);
 }

@@ -173,6 +173,19 @@ Json LensJson(const session::CameraSummary& drawn,
       {"peels", is_by_layers ? Json(drawn.drawn_lens.peels) : Json()}};
 }
 
+/// The motion blur of the objects. A measured exposure has an error.
+Json MotionJson(const session::CameraSummary& drawn,
+                const std::optional<session::MeasuredLens>& measured) {
+  const bool is_known = drawn.exposure.seconds > 0.0;
+  const bool is_measured =
+      drawn.exposure.source == session::ExposureSource::kMeasured && measured.has_value();
+  return {{"mode", session::NameOf(drawn.exposure.source)},
+          {"exposure_ms", IfKnown(is_known, 1e3 * drawn.exposure.seconds)},
+          {"exposure_error_ms",
+           IfKnown(is_measured, is_measured ? 1e3 * measured->exposure.error_s : 0.0)},
+          {"longest_streak_px", Rounded(drawn.drawn_lens.longest_streak_px)}};
+}
+
 Json LightJson(const session::LightSummary& light) {
   const bool is_metered =
       light.exposure_scale_source == session::LightSummary::ExposureScaleSource::kMarker;
@@ -341,6 +354,7 @@ std::string ReportJson(const ReplayReport& report) {
                           {"samples", SamplesOf(report.film)},
                           {"mixed_pixels", MixedPixelsOf(report)}};
   json["lens"] = report.light ? LensJson(report.light->camera, report.film.lens) : Json();
+  json["motion"] = report.light ? MotionJson(report.light->camera, report.film.lens) : Json();
   json["light"] = report.light ? LightJson(*report.light) : Json();
   if (report.light) json["light"]["changes"] = ChangesJson(report.light_changes);
   json["video_encoder"] =

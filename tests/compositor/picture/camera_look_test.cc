@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 
+#include "compositor/picture/edge_profile.h"
 #include "compositor/picture/grain.h"
 #include "tests/compositor/gentle_response.h"
 
@@ -119,6 +120,24 @@ TEST(CameraLook, ReadsCodesByTheCamerasOwnResponse) {
     }
     EXPECT_LT(wrong->NoiseSigma(c, kBlack), 0.85 * look->NoiseSigma(c, kBlack)) << c;
   }
+}
+
+TEST(CameraLook, KnowsTheSecondMomentOfAMovedEdge) {
+  constexpr double kCircle_px = 3.0, kStreak_px = 5.0, kBlur_px = 0.5, kStep_px = 0.02;
+  double sum = 0.0, squares = 0.0;
+  for (int i = -800; i <= 800; ++i) {
+    const double at = i * kStep_px;
+    const EdgeProfile edge = MovedEdge(at, kCircle_px, kStreak_px, kBlur_px);
+    sum += edge.slope * kStep_px;
+    squares += edge.slope * at * at * kStep_px;
+    EXPECT_NEAR(MovedEdge(at, kCircle_px, 0.0, kBlur_px).value,
+                DefocusedEdge(at, kCircle_px, kBlur_px).value, 1e-12);
+  }
+  EXPECT_NEAR(sum, 1.0, 1e-4);
+  // A disc has d²/16, a box L²/12.
+  EXPECT_NEAR(squares,
+              kCircle_px * kCircle_px / 16 + kStreak_px * kStreak_px / 12 + kBlur_px * kBlur_px,
+              0.02);
 }
 
 TEST(CameraLook, ReadsTheBlurOffTheMarkersEdges) {

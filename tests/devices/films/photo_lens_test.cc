@@ -47,6 +47,23 @@ TEST(PhotoLens, IsReadFromExif) {
   }
 }
 
+TEST(PhotoLens, HasTheExposureOfEachImage) {
+  const tests::TemporaryFolder folder;
+  const auto photo = [&](const std::string& name, Fraction exposure) {
+    const std::filesystem::path path = folder / name;
+    constexpr int kExposureTime = 0x829A;
+    std::ofstream(path, std::ios::binary)
+        << ExifBytes::Jpeg({}, {ExifBytes::Rational(kExposureTime, {exposure})}, {});
+    return path;
+  };
+  const auto short_one = photo("0.jpg", {1, 250}), long_one = photo("1.jpg", {1, 60});
+  EXPECT_THAT(LensOfPhotos(std::vector{short_one, long_one})->exposure_s,
+              ElementsAre(1.0 / 250, 1.0 / 60));
+  EXPECT_THAT(LensOfPhotos(std::vector{long_one, long_one})->exposure_s, ElementsAre(1.0 / 60));
+  EXPECT_FALSE(LensOfPhotos(std::vector{photo("2.jpg", {1, 0})}));
+  EXPECT_FALSE(LensOfPhotos(std::vector{photo("3.jpg", {0, 100})}));
+}
+
 TEST(PhotoLens, LeavesOutWhatCannotBeTrue) {
   EXPECT_FALSE(LensOfPhoto("no image").aperture_m);
   const PhotoLens hostile = LensOfPhoto(Jpeg({0, 0}, {425, 100}, {5, 0}));
