@@ -7,6 +7,9 @@
 #include <cstddef>
 #include <ctime>
 #include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
 #include <utility>
 
 #include "app/bench/bench_composer.h"
@@ -17,11 +20,30 @@
 #include "base/quantile.h"
 #include "base/srgb.h"
 #include "compositor/composer.h"
+#include "compositor/lens/exposure_views.h"
+#include "files/csv.h"
+#include "session/motion/frame_exposure.h"
 
 namespace pleinair::app {
 namespace {
 
 using compositor::Composer;
+
+constexpr std::string_view kPoses = "poses:", kEach = "layered-each:";
+constexpr int kMaxViews = session::MotionBlurOptions{}.max_views;
+
+/// The number after a method's prefix.
+std::optional<int> CountAfter(std::string_view prefix, std::string_view method) {
+  constexpr int kMost = 1024;
+  if (!method.starts_with(prefix)) return std::nullopt;
+  const std::optional<double> count = files::ParseNumber(std::string(method.substr(prefix.size())));
+  if (!count || *count != std::floor(*count) || *count < 2 || *count > kMost) return std::nullopt;
+  return static_cast<int>(*count);
+}
+
+bool IsOfMotion(std::string_view method) {
+  return method == "moved" || CountAfter(kPoses, method) || CountAfter(kEach, method);
+}
 
 Image<float> LightOf(const RgbImage& image) {
   Image<float> light(image.width(), image.height());
@@ -31,11 +53,22 @@ Image<float> LightOf(const RgbImage& image) {
   return light;
 }
 
-/// Pixels within a circle of confusion of a board's edge.
-Image<std::uint8_t> EdgePixels(const DefocusScene& scene, int width, int height) {
+/// Length of a board's streak, pixels.
+double StreakOf(const DefocusScene& scene, const CameraModel& camera, const BenchBoard& board) {
+  if (!scene.motion) return 0.0;
+  const auto dioptres = static_cast<float>(1.0 / board.distance_m);
+  const compositor::RenderCamera render{camera.width, camera.height, camera.fx,
+                                        camera.fy,    camera.cx,     camera.cy};
+  const compositor::PixelRect all{0, 0, camera.width, camera.height};
+  return LongestStreak_px(render, scene.motion, std::span(&all, 1), {dioptres, dioptres});
+}
+
+/// Pixels within a circle of confusion, and half a streak, of a board's edge.
+Image<std::uint8_t> EdgePixels(const DefocusScene& scene, const CameraModel& camera) {
+  const int width = camera.width, height = camera.height;
   Image<std::uint8_t> near(width, height);
   for (const BenchBoard& board : scene.boards) {
-    const double around = std::fabs(board.circle_px) + 1.0;
+    const double around = std::fabs(board.circle_px) + 0.5 * StreakOf(scene, camera, board) + 1.0;
     for (int y = 0; y < height; ++y) {
       for (int x = 0; x < width; ++x) {
         const double u = x + 0.5, v = y + 0.5;
@@ -53,8 +86,9 @@ class DefocusRun {
  public:
   static Result<DefocusRun> Create(const std::string& name, const PictureBench& options) {
     DefocusRun run(name, options);
-    run.truth_ = TraceBoards(run.scene_, run.camera_.width, run.camera_.height);
-    run.edges_ = EdgePixels(run.scene_, run.camera_.width, run.camera_.height);
+    run.truth_ = run.scene_.motion ? TraceMovingCamera(run.scene_, run.camera_)
+                                   : TraceBoards(run.scene_, run.camera_.width, run.camera_.height);
+    run.edges_ = EdgePixels(run.scene_, run.camera_);
     // With the antialiasing of replay.
     PLEINAIR_ASSIGN_OR_RETURN(run.pinhole_, MakeBenchComposer(run.camera_, run.scene_.models, {}));
     return run;
@@ -138,8 +172,43 @@ class DefocusRun {
     return composer.Compose(black_.view(), scene_.camera_from_marker, BenchExposure());
   }
 
+  std::optional<compositor::ThinLens> Lens() const {
+    return scene_.lens.aperture_m > 0.0 ? std::optional(scene_.lens) : std::nullopt;
+  }
+
+  /// The image of each pose by layers of depth.
+  Result<Image<float>> DrawEachByLayers(int poses) {
+    pinhole_->SetLens(Lens(), compositor::kByLayers);
+    Image<float> mean(black_.width(), black_.height());
+    for (int i = 0; i < poses; ++i) {
+      PLEINAIR_ASSIGN_OR_RETURN(
+          const RgbImage image,
+          pinhole_->Compose(black_.view(), scene_.motion((i + 0.5) / poses - 0.5),
+                            BenchExposure()));
+      const Image<float> light = LightOf(image);
+      for (std::size_t k = 0; k < mean.size(); ++k) {
+        mean.data()[k] += light.data()[k] / static_cast<float>(poses);
+      }
+    }
+    return mean;
+  }
+
+  /// The image of the moving camera.
+  Result<Image<float>> DrawMoved(const std::string& method, DefocusBenchRow* row) {
+    pinhole_->SetMotion({}, kMaxViews);
+    if (const auto poses = CountAfter(kEach, method)) return DrawEachByLayers(*poses);
+    const std::optional<int> poses = CountAfter(kPoses, method);
+    pinhole_->SetLens(Lens(), poses.value_or(compositor::kByLayers));
+    pinhole_->SetMotion(scene_.motion, poses.value_or(kMaxViews));
+    PLEINAIR_ASSIGN_OR_RETURN(const RgbImage image, Compose(*pinhole_));
+    row->views = pinhole_->DrawnLens().views;
+    pinhole_->SetMotion({}, kMaxViews);
+    return LightOf(image);
+  }
+
   /// Rivals draw the pinhole image, too, which they blur.
   Result<Image<float>> Draw(const std::string& method, DefocusBenchRow* row) {
+    if (IsOfMotion(method)) return DrawMoved(method, row);
     session::DefocusOptions drawn;
     const bool by_composer = method == "layered" || method.starts_with("lens:");
     if (by_composer) {
@@ -182,24 +251,27 @@ std::vector<std::string> DefaultDefocusMethods() {
   return {"layered", "gaussian", "gather", "lens:32"};
 }
 
+std::vector<std::string> DefaultMotionMethods() {
+  return {"moved", "poses:8", "layered-each:16", "pinhole"};
+}
+
 Result<void> CheckDefocusMethod(const std::string& method) {
   for (const char* name : {"gaussian", "gaussian-each", "gather", "pinhole"}) {
     if (method == name) return {};
   }
+  if (IsOfMotion(method)) return {};
   DefocusArguments chosen;
   chosen.method = method;
   session::DefocusOptions unused;
   if (!method.empty() && ParseDefocus(chosen, &unused)) return {};
   return InputError("--methods", "is unknown: " + method.substr(0, 64),
-                    "write layered, gaussian, gaussian-each, gather, pinhole, or lens:1 to "
-                    "lens:1024");
+                    "write layered, gaussian, gaussian-each, gather, pinhole, moved, or lens:N, "
+                    "poses:N and layered-each:N with N from 2 to 1024");
 }
 
 Result<void> RunDefocusBench(const PictureBench& bench, const DefocusBenchSink& sink) {
-  std::vector<std::string> scenes = bench.scenes, methods = bench.methods;
-  if (scenes.empty()) scenes.assign(DefocusSceneNames().begin(), DefocusSceneNames().end());
-  if (methods.empty()) methods = DefaultDefocusMethods();
-  for (const std::string& scene : scenes) {
+  const std::vector<std::string>& methods = bench.methods;
+  for (const std::string& scene : bench.scenes) {
     PLEINAIR_ASSIGN_OR_RETURN(DefocusRun run, DefocusRun::Create(scene, bench));
     sink.advance();
     std::vector<DefocusBenchRow> rows;

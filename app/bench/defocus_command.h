@@ -8,7 +8,7 @@ class App;
 
 namespace pleinair::app {
 
-/// Adds `pleinair bench defocus`.
+/// Adds `pleinair bench defocus` and `pleinair bench motion`.
 void AddDefocusBenchCommand(CLI::App& bench, CommandResult& result);
 
 }  // namespace pleinair::app

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
@@ -15,6 +16,7 @@ using compositor::Mesh;
 using compositor::Model;
 
 constexpr std::array<std::string_view, 5> kDefocusNames{"boards", "edges", "fence", "stack", "far"};
+constexpr std::array<std::string_view, 5> kMotionNames{"pan", "shake", "walk", "dolly", "both"};
 constexpr double kFocus_dioptres = 0.25, kCirclePerDioptre_px = 30.0;
 
 std::vector<BenchBoard> BoardsOf(std::string_view name, double w, double h) {
@@ -64,7 +66,7 @@ std::vector<BenchBoard> BoardsOf(std::string_view name, double w, double h) {
 
 /// In the marker's plane: x to the right, y up, looking along −z.
 compositor::PlacedModel Placed(const BenchBoard& board, const CameraModel& camera) {
-  const double z = 1.0 / (kFocus_dioptres - board.circle_px / kCirclePerDioptre_px);
+  const double z = board.distance_m;
   // Pixel centres are whole numbers, so that a board from 10 to 12 covers pixels 10 and 11.
   const auto x_m = [&](double x) {
     return static_cast<float>((x - 0.5 - camera.cx) / camera.fx * z);
@@ -92,7 +94,36 @@ compositor::PlacedModel Placed(const BenchBoard& board, const CameraModel& camer
   return {std::move(model), Mat3{}, {}, false};
 }
 
+/// How a camera's coordinates change within an exposure, by its share −½…½.
+compositor::CameraMotion MotionOf(std::string_view name, const CameraModel& camera,
+                                  const Transform<Camera, Marker>& middle) {
+  struct Speeds {
+    double yaw_px = 0.0, bend_px = 0.0, roll_rad = 0.0, right_px_m = 0.0, forward_m = 0.0;
+  };
+  Speeds speeds;
+  if (name == "pan") speeds.yaw_px = 12.0;
+  if (name == "shake") speeds = {8.0, 12.0, 0.04, 0.0, 0.0};
+  if (name == "walk" || name == "both") speeds.right_px_m = 24.0;
+  if (name == "dolly") speeds.forward_m = 0.2;
+  return [speeds, fx = camera.fx, middle](double share) {
+    const double yaw = share * speeds.yaw_px / fx, pitch = share * share * speeds.bend_px / fx;
+    const double roll = share * speeds.roll_rad;
+    const Mat3 turned_yaw{
+        {std::cos(yaw), 0, std::sin(yaw), 0, 1, 0, -std::sin(yaw), 0, std::cos(yaw)}};
+    const Mat3 turned_pitch{
+        {1, 0, 0, 0, std::cos(pitch), -std::sin(pitch), 0, std::sin(pitch), std::cos(pitch)}};
+    const Mat3 turned_roll{
+        {std::cos(roll), -std::sin(roll), 0, std::sin(roll), std::cos(roll), 0, 0, 0, 1}};
+    const Transform<Camera, Camera> moved{
+        turned_roll * turned_pitch * turned_yaw,
+        {share * speeds.right_px_m / fx, 0.0, -share * speeds.forward_m}};
+    return moved * middle;
+  };
+}
+
 }  // namespace
+
+std::span<const std::string_view> MotionSceneNames() { return kMotionNames; }
 
 std::span<const std::string_view> DefocusSceneNames() { return kDefocusNames; }
 
@@ -101,9 +132,19 @@ DefocusScene MakeDefocusScene(std::string_view name, const CameraModel& camera) 
   scene.name = name;
   scene.boards = BoardsOf(name, camera.width, camera.height);
   scene.lens = {kCirclePerDioptre_px / camera.fx, kFocus_dioptres};
+  scene.camera_from_marker = {Mat3{{1, 0, 0, 0, -1, 0, 0, 0, -1}}, {0, 0, 0}};
+  for (BenchBoard& board : scene.boards) {
+    board.distance_m = 1.0 / (kFocus_dioptres - board.circle_px / kCirclePerDioptre_px);
+  }
+  if (std::ranges::find(kMotionNames, name) != kMotionNames.end()) {
+    scene.motion = MotionOf(name, camera, scene.camera_from_marker);
+    if (name != "both") {
+      scene.lens.aperture_m = 0.0;
+      for (BenchBoard& board : scene.boards) board.circle_px = 0.0;
+    }
+  }
   std::transform(scene.boards.begin(), scene.boards.end(), std::back_inserter(scene.models),
                  [&](const BenchBoard& board) { return Placed(board, camera); });
-  scene.camera_from_marker = {Mat3{{1, 0, 0, 0, -1, 0, 0, 0, -1}}, {0, 0, 0}};
   return scene;
 }
 

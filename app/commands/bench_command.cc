@@ -212,8 +212,8 @@ Result<void> RunBench(BenchOptions& options) {
 void AddBenchCommand(CLI::App& app, CommandResult& result) {
   CLI::App* bench = app.add_subcommand(
       "bench",
-      "For research: measure shadows, antialiasing, depth of field and clouds, replay with more "
-      "options");
+      "For research: measure shadows, antialiasing, depth of field, motion blur and clouds, replay "
+      "with more options");
   bench->footer(kBenchExamples);
   bench->require_subcommand(1);
   AddAntialiasingBenchCommand(*bench, result);

@@ -62,5 +62,27 @@ TEST(TracedBoards, ShowWhatLiesBehindABlurredRim) {
   EXPECT_NEAR(light(30, 1), 1.0, 1e-6);
 }
 
+TEST(TracedBoards, HaveTheEdgeOfABoxBeforeAMovingCamera) {
+  // A board at 2 m, before a camera that moves by 10 px of its distance.
+  constexpr double kMoved_px = 10.0, kDistance_m = 2.0;
+  const CameraModel camera{.width = 40, .height = 3, .fx = 50, .fy = 50, .cx = 19.5, .cy = 1};
+  DefocusScene scene = SceneOf({{20.0, -100.0, 200.0, 100.0, 0.0, 0.8F, kDistance_m}});
+  scene.camera_from_marker = {Mat3{{1, 0, 0, 0, -1, 0, 0, 0, -1}}, {0, 0, 0}};
+  scene.motion = [&](double share) {
+    Transform<Camera, Marker> pose = scene.camera_from_marker;
+    pose.translation_m.x += share * kMoved_px * kDistance_m / camera.fx;
+    return pose;
+  };
+  const Image<float> light = TraceMovingCamera(scene, camera);
+  for (int x = 0; x < camera.width; ++x) {
+    double expected = 0.0;
+    constexpr int kParts = 64;  // Of the pixel's width.
+    for (int i = 0; i < kParts; ++i) {
+      expected += std::clamp((x + (i + 0.5) / kParts - 20.0) / kMoved_px + 0.5, 0.0, 1.0) / kParts;
+    }
+    EXPECT_NEAR(light(x, 1), 0.8 * expected, 0.003) << x;
+  }
+}
+
 }  // namespace
 }  // namespace pleinair::app
