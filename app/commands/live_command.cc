@@ -135,7 +135,7 @@ Result<RgbImage> ShowAll([[maybe_unused]] LiveSession& session, [[maybe_unused]]
   options.scene = scene;
   options.drawing.show_shadow_maps = arguments.shadow_debug;
   PLEINAIR_ASSIGN_OR_RETURN(options.drawing.antialiasing,
-                            ParseAntialiasing(arguments.antialiasing));
+                            ParseAntialiasing(arguments.drawing.antialiasing));
   options.convergence = arguments.light.convergence;
   options.live_camera = source.camera;
   options.seconds = arguments.seconds;
@@ -198,13 +198,14 @@ Result<void> RunLive(const CLI::App& command, const LiveArguments& arguments) {
   options.scene = session::WithGiven(*source.scene, arguments.light);
   options.composer.show_shadow_maps = arguments.shadow_debug;
   PLEINAIR_ASSIGN_OR_RETURN(options.composer.antialiasing,
-                            ParseAntialiasing(arguments.antialiasing));
-  PLEINAIR_RETURN_IF_ERROR(ParseDefocus(arguments.defocus, &options.light.defocus));
-  if (options.light.defocus.mode == session::DefocusMode::kMeasured) {
-    return InputError("--defocus measured", "takes a whole recording",
-                      "record this camera, run 'pleinair lens' on it, and give what it measures "
-                      "with --focus and --aperture-mm");
-  }
+                            ParseAntialiasing(arguments.drawing.antialiasing));
+  PLEINAIR_RETURN_IF_ERROR(ParseDefocus(arguments.drawing.defocus, &options.light.defocus));
+  PLEINAIR_RETURN_IF_ERROR(
+      ParseMotionBlur(arguments.drawing.motion_blur, &options.light.motion_blur));
+  // Each view takes about as long as an image at rest.
+  constexpr int kLiveViews = 8;
+  options.light.motion_blur.max_views = kLiveViews;
+  options.scene.camera.recorded_lens = session::StatedLens(options.scene, options.light);
   const scene::SceneDescription scene = options.scene;
   options.shown_elsewhere = !arguments.headless;
   options.lossless = arguments.lossless;
@@ -300,8 +301,9 @@ void AddLiveCommand(CLI::App& app, CommandResult& result) {
   AddLightChangeOption(*command, "the time between two estimates, a minute", a.light);
   AddSolverOptions(*command, a.light);
   AddModelFileOptions(*command);
-  AddAntialiasingOptions(*command, a.antialiasing);
-  AddDefocusOptions(*command, a.defocus);
+  AddAntialiasingOptions(*command, a.drawing.antialiasing);
+  AddDefocusOptions(*command, a.drawing.defocus);
+  AddMotionBlurOptions(*command, a.drawing.motion_blur);
   command->add_flag("--shadow-debug", a.shadow_debug,
                     "Tint surfaces by shadow-map partition and show the maps (in the window: M)");
   command->add_flag("--headless", a.headless, "Without a window");

@@ -6,6 +6,7 @@
 
 #include "app/options/antialiasing_options.h"
 #include "app/options/defocus_options.h"
+#include "app/options/motion_blur_options.h"
 #include "session/light_options.h"
 
 namespace pleinair::app {
@@ -45,8 +46,11 @@ struct LiveArguments {
   LiveOutputs output;
   LiveWindowArguments window;
   session::LightOptions light;
-  AntialiasingArguments antialiasing;
-  DefocusArguments defocus;
+  struct Drawing {
+    AntialiasingArguments antialiasing;
+    DefocusArguments defocus;
+    MotionBlurArguments motion_blur;
+  } drawing;
   std::optional<double> seconds, report_every_s;
   bool headless = false, lossless = false, json = false, shadow_debug = false;
 };

@@ -16,7 +16,21 @@ namespace fs = std::filesystem;
 // A power failure loses at most this much.
 constexpr std::chrono::seconds kSyncEvery{1};
 
-std::string RecordingJson(const CameraModel& camera, UtcTime start) {
+/// The block `lens` of recording.json. Lists have one value a frame of another recording.
+nlohmann::json LensJson(const scene::LensDescription& lens) {
+  nlohmann::json json = nlohmann::json::object();
+  if (lens.focus_dioptres.size() == 1) json["focus_dioptres"] = lens.focus_dioptres.front();
+  if (lens.aperture_m) json["aperture_mm"] = 1e3 * *lens.aperture_m;
+  if (lens.exposure_s.size() == 1) json["exposure_ms"] = 1e3 * lens.exposure_s.front();
+  if (lens.blades != 0) {
+    json["blades"] = lens.blades;
+    json["blade_rotation_deg"] = lens.blade_rotation_deg;
+  }
+  return json;
+}
+
+std::string RecordingJson(const CameraModel& camera,
+                          const std::optional<scene::LensDescription>& lens, UtcTime start) {
   const auto& d = camera.distortion;
   nlohmann::json calibration{{"image_width", camera.width},
                              {"image_height", camera.height},
@@ -31,10 +45,13 @@ std::string RecordingJson(const CameraModel& camera, UtcTime start) {
   } else {
     calibration["distortion"] = d;
   }
-  return nlohmann::json{
-             {"frames", "frames.pack"}, {"utc", start.ToString()}, {"calibration", calibration}}
-             .dump(1) +
-         "\n";
+  nlohmann::json recording{
+      {"frames", "frames.pack"}, {"utc", start.ToString()}, {"calibration", calibration}};
+  if (lens) {
+    nlohmann::json block = LensJson(*lens);
+    if (!block.empty()) recording["lens"] = std::move(block);
+  }
+  return recording.dump(1) + "\n";
 }
 
 }  // namespace
@@ -59,8 +76,8 @@ Result<std::unique_ptr<LiveRecorder>> LiveRecorder::Create(const fs::path& folde
   PLEINAIR_ASSIGN_OR_RETURN(auto writer, devices::FramePackWriter::Create(folder / "frames.pack"));
   PLEINAIR_RETURN_IF_ERROR(
       WriteFileAtomically(folder / "scene.toml", SceneToml(scene, start, folder)));
-  PLEINAIR_RETURN_IF_ERROR(
-      WriteFileAtomically(folder / "recording.json", RecordingJson(camera, start)));
+  PLEINAIR_RETURN_IF_ERROR(WriteFileAtomically(
+      folder / "recording.json", RecordingJson(camera, scene.camera.recorded_lens, start)));
   return std::unique_ptr<LiveRecorder>(new LiveRecorder(std::move(writer)));
 }
 

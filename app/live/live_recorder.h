@@ -20,7 +20,8 @@ namespace pleinair::app {
 /// the disk cannot take in time are dropped and counted. A full disk ends only the recording.
 class LiveRecorder {
  public:
-  /// Creates the folder with recording.json (lens and start time) and scene.toml (the scene with
+  /// Creates the folder with recording.json (calibration, start time, and what of
+  /// scene.camera.recorded_lens holds for all frames) and scene.toml (the scene with
   /// `start` as its time). Errors: an existing recording, no permission, disk full.
   static Result<std::unique_ptr<LiveRecorder>> Create(const std::filesystem::path& folder,
                                                       const CameraModel& camera,

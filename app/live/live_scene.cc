@@ -21,15 +21,21 @@ bool AreAlike(const session::BakedLighting& a, const session::BakedLighting& b) 
 }  // namespace
 
 void LiveScene::StartFollowing(const CameraModel& camera, const session::LightOptions& light,
-                               const CameraResponse& response) {
-  if (light.changes != session::LightChangeMode::kFollow) return;
-  changes_ = std::make_unique<session::LiveLight>(camera, response);
+                               const session::SceneRenderer& renderer) {
+  if (light.changes == session::LightChangeMode::kFollow) {
+    changes_ = std::make_unique<session::LiveLight>(camera, renderer.response());
+  }
+  if (renderer.lens().MayBeMeasured() || renderer.exposure().MayBeMeasured()) {
+    lens_ =
+        std::make_unique<session::LiveLens>(camera, renderer.response(), renderer.lens().Known());
+  }
 }
 
 void LiveScene::Follow(const std::shared_ptr<const devices::Frame>& frame,
                        const Transform<Camera, Marker>& camera_from_marker,
                        const scene::MarkerReflectance& marker) {
   if (changes_) changes_->Show(frame, camera_from_marker, marker);
+  if (lens_) lens_->Show(frame, camera_from_marker, marker);
 }
 
 bool LiveScene::ShowsOtherMoment() const {
@@ -90,6 +96,14 @@ void LiveScene::SetMarkerReflectance(const scene::MarkerReflectance& marker_refl
 }
 
 Result<void> LiveScene::Update(UtcTime moment, session::SceneRenderer* renderer) {
+  if (lens_) {
+    if (const auto measured = lens_->TakeNews()) {
+      if (renderer->lens().MayBeMeasured()) renderer->UseMeasuredLens(measured->fit, {});
+      if (renderer->exposure().MayBeMeasured()) {
+        renderer->UseMeasuredExposure(measured->exposure);
+      }
+    }
+  }
   std::optional<session::SceneEdit> edit;
   std::optional<session::SceneEdit> drawn;
   {
@@ -133,6 +147,7 @@ std::optional<session::BackgroundLight::Progress> LiveScene::light_progress() co
 }
 
 void LiveScene::Stop() {
+  if (lens_) lens_->Stop();
   if (changes_) changes_->Stop();
   if (light_) light_->Stop();
 }

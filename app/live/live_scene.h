@@ -7,7 +7,6 @@
 
 #include "app/live/live_detail.h"
 #include "base/camera_model.h"
-#include "base/camera_response.h"
 #include "base/error.h"
 #include "base/frames.h"
 #include "base/utc_time.h"
@@ -17,6 +16,7 @@
 #include "scene/scene_description.h"
 #include "session/background_light.h"
 #include "session/baked_lighting.h"
+#include "session/following/live_lens.h"
 #include "session/following/live_light.h"
 #include "session/light_follower.h"
 #include "session/light_options.h"
@@ -33,12 +33,14 @@ class LiveScene {
       : described_(described),
         edit_(session::UneditedScene(described, drawing, light.convergence)) {}
 
-  /// Begins to follow sun and sky by the frames of Follow(), unless `light` holds them. `camera`:
-  /// the lens of the frames. Call it before the frames are tracked.
+  /// Begins to follow sun and sky by the frames of Follow(), unless `light` holds them, and to
+  /// measure what is not stated of lens and exposure. `camera`: the lens of the frames. Call it
+  /// before the frames are tracked.
   void StartFollowing(const CameraModel& camera, const session::LightOptions& light,
-                      const CameraResponse& response);
+                      const session::SceneRenderer& renderer);
 
-  /// Offers a tracked frame, to follow its light. May run on another thread than the rest.
+  /// Offers a tracked frame, to follow its light and its lens. May run on another thread than the
+  /// rest.
   void Follow(const std::shared_ptr<const devices::Frame>& frame,
               const Transform<Camera, Marker>& camera_from_marker,
               const scene::MarkerReflectance& marker);
@@ -60,7 +62,8 @@ class LiveScene {
   /// Sets the reflectances of the marker that the exposure is estimated from.
   void SetMarkerReflectance(const scene::MarkerReflectance& marker_reflectance);
 
-  /// Passes the edits and the light since the last frame to the renderer, for a frame at `moment`.
+  /// Passes the edits, the light and the lens since the last frame to the renderer, for a frame at
+  /// `moment`.
   Result<void> Update(UtcTime moment, session::SceneRenderer* renderer);
 
   /// Offers a frame to the light estimator.
@@ -87,6 +90,7 @@ class LiveScene {
   const scene::SceneDescription described_;
   std::unique_ptr<session::BackgroundLight> light_;
   std::unique_ptr<session::LiveLight> changes_;             // Null: light is not followed.
+  std::unique_ptr<session::LiveLens> lens_;                 // Null: nothing of it is measured.
   std::shared_ptr<const session::BakedLighting> followed_;  // To which the changes refer.
   mutable std::mutex mutex_;
   session::SceneEdit edit_;

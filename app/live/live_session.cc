@@ -53,7 +53,7 @@ Result<void> LiveSession::Prepare(const std::function<void()>& loaded) {
                                                               options_.camera, options_.scene));
   session::SceneRenderer& renderer = pipeline_->renderer();
   if (!options_.lossless && renderer.DrawsObjects()) {
-    scene_.StartFollowing(options_.camera, options_.light, renderer.response());
+    scene_.StartFollowing(options_.camera, options_.light, renderer);
   }
   if (options_.lossless && options_.source.trajectory) options_.source.trajectory->Wait();
   threads_.emplace_back([this] { Capture(); });

@@ -12,6 +12,7 @@
 #include "app/replay/trajectory_warnings.h"
 #include "app/terminal/interrupt.h"
 #include "session/following/low_priority.h"
+#include "session/motion/pose_motion.h"
 #include "session/recording_passes.h"
 
 namespace pleinair::app {
@@ -127,8 +128,13 @@ std::optional<session::CameraPose> LiveTrajectory::PoseIn(
   session::Observation observation = session::ObservationByTrajectory(
       aligned->camera, scene_.marker.size_m, {frame.index, frame.timestamp_ns},
       is_seen ? &by_marker->observation : nullptr, aligned->summary.alignment, *pose);
-  return session::CameraPose{by_marker ? by_marker->marker : aligned->marker,
-                             std::move(observation)};
+  session::CameraPose followed{by_marker ? by_marker->marker : aligned->marker,
+                               std::move(observation)};
+  if (by_marker) {
+    followed.motion = session::MovedTo(by_marker->motion, followed.observation.camera_from_marker);
+    followed.exposure_s = by_marker->exposure_s;
+  }
+  return followed;
 }
 
 std::optional<std::string> LiveTrajectory::TakeNews() {
