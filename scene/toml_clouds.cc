@@ -9,6 +9,7 @@ namespace pleinair::scene {
 namespace {
 
 constexpr const char* kCloudTable = "cloud_layer";
+constexpr const char* kPassing = "passing";
 
 /// The error of a description at its place in the file.
 template <typename T>
@@ -19,10 +20,32 @@ Result<T> LocatedAt(const std::string& where, Result<T> result) {
   return tl::make_unexpected(std::move(error));
 }
 
+/// The table [cloud_layer.passing].
+Result<clouds::CloudPassing> ReadPassing(const TomlTable& layer, double usual_width_m) {
+  clouds::CloudPassing passing;
+  PLEINAIR_ASSIGN_OR_RETURN(const std::vector<TomlTable> tables, layer.Tables(kPassing));
+  if (tables.empty()) return passing;
+  if (tables.size() > 1) return tables[1].FailHere("is one [cloud_layer.passing] too many");
+  const TomlTable& table = tables.front();
+  PLEINAIR_RETURN_IF_ERROR(table.AllowOnly({"east_m", "north_m", "width_m", "seconds", "shifts"}));
+  const auto number = [&](const char* key, double usual) -> Result<double> {
+    PLEINAIR_ASSIGN_OR_RETURN(const std::optional<double> given, table.Number(key));
+    return given.value_or(usual);
+  };
+  PLEINAIR_ASSIGN_OR_RETURN(passing.east_m, number("east_m", 0.0));
+  PLEINAIR_ASSIGN_OR_RETURN(passing.north_m, number("north_m", 0.0));
+  PLEINAIR_ASSIGN_OR_RETURN(passing.width_m, number("width_m", usual_width_m));
+  PLEINAIR_ASSIGN_OR_RETURN(passing.seconds, table.Numbers("seconds"));
+  PLEINAIR_ASSIGN_OR_RETURN(passing.shifts, table.Numbers("shifts"));
+  if (passing.seconds.empty()) return table.FailHere("has no seconds", "add seconds and shifts");
+  PLEINAIR_RETURN_IF_ERROR(LocatedAt(table.WhereHere(), clouds::CheckPassing(passing)));
+  return passing;
+}
+
 Result<clouds::CloudLayer> ReadCloudLayer(const TomlTable& table) {
   PLEINAIR_RETURN_IF_ERROR(
       table.AllowOnly({"kind", "cover", "optical_depth", "base_m", "thickness_m", "cell_m",
-                       "wind_m_s", "wind_from_deg", "seed"}));
+                       "wind_m_s", "wind_from_deg", "seed", "east_m", "north_m", kPassing}));
   clouds::CloudLayerFacts facts;
   PLEINAIR_ASSIGN_OR_RETURN(const std::optional<std::string> kind, table.Text("kind"));
   if (!kind) return table.FailHere("has no kind", "add for example kind = \"cumulus\"");
@@ -38,6 +61,7 @@ Result<clouds::CloudLayer> ReadCloudLayer(const TomlTable& table) {
     facts.seed = seed->value_exact<std::int64_t>();
     if (!facts.seed) return table.Fail("seed", "is not a whole number", "write it like 7");
   }
+  PLEINAIR_ASSIGN_OR_RETURN(facts.passing, ReadPassing(table, clouds::CloudPassing{}.width_m));
   return LocatedAt(table.WhereHere(), clouds::MakeCloudLayer(facts));
 }
 

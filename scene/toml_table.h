@@ -117,6 +117,21 @@ class TomlTable {
     return triples;
   }
 
+  /// A list of numbers; empty where the key is missing.
+  Result<std::vector<double>> Numbers(const char* key) const {
+    std::vector<double> numbers;
+    const toml::node* node = Find(key);
+    if (node == nullptr) return numbers;
+    const toml::array* list = node->as_array();
+    if (list == nullptr) return Fail(node->source(), Quoted(key) + " is not a list of numbers");
+    numbers.reserve(list->size());
+    for (const toml::node& item : *list) {
+      PLEINAIR_ASSIGN_OR_RETURN(const std::optional<double> number, Number(item, key));
+      numbers.push_back(number.value_or(0.0));
+    }
+    return numbers;
+  }
+
   /// A length in metres, given in metres or in millimetres.
   Result<std::optional<double>> Length(const char* metres, const char* millimetres) const {
     PLEINAIR_ASSIGN_OR_RETURN(const std::optional<double> in_m, Number(metres));

@@ -2,22 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
 #include <mutex>
 #include <string_view>
 #include <utility>
 
 #include "app/compare/ground_truth_images.h"
 #include "app/compare/image_comparison.h"
+#include "app/output/scratch_folder.h"
 #include "app/replay/replay.h"
 #include "base/atomic_file.h"
 #include "files/base64.h"
 
 namespace pleinair::app {
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr int kPageWidth_px = 480;
 
@@ -27,30 +24,6 @@ static_assert(kPictureScoreNames.size() == accuracy::kImageMeasures.size() &&
                          [](std::string_view name, const accuracy::ImageMeasure& measure) {
                            return name == measure.name;
                          }));
-
-/// A folder that is removed on destruction.
-class ScratchFolder {
- public:
-  static Result<ScratchFolder> Create() {
-    std::error_code error;
-    std::string name = (fs::temp_directory_path(error) / "pleinair-light-XXXXXX").string();
-    if (error || mkdtemp(name.data()) == nullptr) {
-      return SystemError(name, "cannot be made", "set TMPDIR to a folder that can be written");
-    }
-    return ScratchFolder(name);
-  }
-  ScratchFolder(ScratchFolder&& other) noexcept : path_(std::exchange(other.path_, {})) {}
-  ScratchFolder& operator=(ScratchFolder&&) = delete;
-  ~ScratchFolder() {
-    std::error_code ignored;
-    if (!path_.empty()) fs::remove_all(path_, ignored);
-  }
-  const fs::path& path() const { return path_; }
-
- private:
-  explicit ScratchFolder(fs::path path) : path_(std::move(path)) {}
-  fs::path path_;
-};
 
 LightPicture PictureOf(const std::string& recording, const ComparedPicture& compared) {
   LightPicture picture;

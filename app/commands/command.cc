@@ -27,6 +27,7 @@ constexpr const char* kExamples =
     "  pleinair calibrate --charuco 8x6 photos/ -o camera.json\n"
     "  pleinair response my_recording -o camera.response\n"
     "  pleinair lens my_recording\n"
+    "  pleinair clouds out/demo >> scene.toml\n"
     "  pleinair target poster.jpg --width-mm 420 -o poster.target\n"
     "  pleinair model sculpture.glb -o sheet.png\n"
     "  pleinair leaf --chlorophyll 45 --carotenoids 9 -o leaf.png\n"
@@ -92,6 +93,7 @@ int RunCommandLine(int argc, const char* const* argv) {
     AddReplayCommand(app, result);
     AddNewCommand(app, result);
     AddCheckCommand(app, result);
+    AddCloudsCommand(app, result);
     AddCompareCommand(app, result);
     AddLiveCommand(app, result);
     AddDetectCommand(app, result);

@@ -23,6 +23,7 @@ struct CommandResult {
 void AddReplayCommand(CLI::App& app, CommandResult& result);
 void AddNewCommand(CLI::App& app, CommandResult& result);
 void AddLensCommand(CLI::App& app, CommandResult& result);
+void AddCloudsCommand(CLI::App& app, CommandResult& result);
 void AddCheckCommand(CLI::App& app, CommandResult& result);
 void AddCompareCommand(CLI::App& app, CommandResult& result);
 void AddLiveCommand(CLI::App& app, CommandResult& result);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/live/live_recorder.h"
+#include "app/output/cloud_layer_toml.h"
 #include "app/replay/report/report.h"
 #include "base/up_axis.h"
 #include "scene/leaf_contents.h"
@@ -119,14 +120,6 @@ void AddLeaf(const scene::LeafDescription& leaf, const fs::path& folder, std::st
   }
 }
 
-void AddCloudLayer(const clouds::CloudLayer& layer, std::string* text) {
-  *text += fmt::format("\n[[cloud_layer]]\nkind = \"{}\"\n", clouds::NameOf(layer.kind));
-  *text += fmt::format("cover = {}\noptical_depth = {}\nbase_m = {}\nthickness_m = {}\n",
-                       layer.cover, layer.optical_depth, layer.base_m, layer.thickness_m);
-  *text += fmt::format("cell_m = {}\nwind_m_s = {}\nwind_from_deg = {}\nseed = {}\n", layer.cell_m,
-                       layer.wind_m_s, layer.wind_from_deg, layer.seed);
-}
-
 }  // namespace
 
 std::string SceneToml(const scene::SceneDescription& scene, UtcTime start, const fs::path& folder) {
@@ -161,7 +154,7 @@ std::string SceneToml(const scene::SceneDescription& scene, UtcTime start, const
   for (const auto& phantom : scene.phantoms) AddModel("phantom", phantom, folder, &text);
   for (const auto& object : scene.objects) AddModel("object", object, folder, &text);
   for (const auto& leaf : scene.leaves) AddLeaf(leaf, folder, &text);
-  for (const auto& layer : scene.clouds.layers) AddCloudLayer(layer, &text);
+  for (const auto& layer : scene.clouds.layers) text += "\n" + CloudLayerToml(layer);
   return text;
 }
 

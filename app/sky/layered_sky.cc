@@ -53,10 +53,10 @@ std::string LayeredSky::Json(const sky::SkyModel& sky, const SkyMoment& moment) 
     json += fmt::format(
         R"({}{{"kind":"{}","cover":{:.7g},"cover_found":{:.5f},"optical_depth":{:.7g},)"
         R"("optical_depth_found":{:.5g},"base_m":{:.7g},"thickness_m":{:.7g},"cell_m":{:.7g},)"
-        R"("wind_m_s":{:.7g},"wind_from_deg":{:.7g},"seed":{}}})",
+        R"("wind_m_s":{:.7g},"wind_from_deg":{:.7g},"seed":{},"east_m":{:.7g},"north_m":{:.7g}}})",
         i == 0 ? "" : ",", clouds::NameOf(layer.kind), layer.cover, found.cover,
         layer.optical_depth, found.mean_optical_depth, layer.base_m, layer.thickness_m,
-        layer.cell_m, layer.wind_m_s, layer.wind_from_deg, layer.seed);
+        layer.cell_m, layer.wind_m_s, layer.wind_from_deg, layer.seed, layer.east_m, layer.north_m);
   }
   return json + "]";
 }

@@ -121,6 +121,16 @@ class LayerNoise {
   int octaves_ = 1;
 };
 
+/// The shift of passing clouds at a time within theirs.
+double ShiftAt(const CloudPassing& passing, double seconds) {
+  const auto next =
+      std::upper_bound(passing.seconds.begin() + 1, passing.seconds.end() - 1, seconds);
+  const auto i = static_cast<std::size_t>(next - passing.seconds.begin());
+  const double span = passing.seconds[i] - passing.seconds[i - 1];
+  const double part = std::clamp((seconds - passing.seconds[i - 1]) / span, 0.0, 1.0);
+  return passing.shifts[i - 1] + part * (passing.shifts[i] - passing.shifts[i - 1]);
+}
+
 constexpr int kCoverSamples = 1000;  ///< Along each side of the square.
 
 /// East or north of the place, metres.
@@ -158,6 +168,49 @@ CloudField::CloudField(const CloudLayer& layer) : layer_(layer) {
     uniform_depth_ = layer.optical_depth;
   } else if (layer.cover > 0.0 && layer.optical_depth > 0.0) {
     MakeColumns();
+    AddPassing();
+  }
+}
+
+CloudField::CloudField(const CloudField& bare, Vec2 displacement_m, const CloudPassing& passing)
+    : CloudField(bare) {
+  layer_.east_m = displacement_m.x;
+  layer_.north_m = displacement_m.y;
+  layer_.passing = passing;
+  AddPassing();
+}
+
+// Texel by texel along the strip. Where the strip is longer than a period, it crosses itself.
+void CloudField::AddPassing() {
+  const CloudPassing& passing = layer_.passing;
+  const double speed = std::hypot(velocity_m_s_.x, velocity_m_s_.y);
+  if (passing.seconds.empty() || noise_.empty() || speed <= 0.0) return;
+  const Vec2 along = velocity_m_s_ * (1.0 / speed);
+  const double texel = period_m_ / kSide;
+  // In the coordinates of the field: what passes the place later lies farther upwind.
+  const auto at = [&](double seconds) {
+    return Vec2{passing.east_m - layer_.east_m, passing.north_m - layer_.north_m} -
+           velocity_m_s_ * seconds;
+  };
+  const Vec2 first = at(passing.seconds.front()), last = at(passing.seconds.back());
+  const auto texels = [&](double metres) { return static_cast<long>(std::floor(metres / texel)); };
+  const long x_end = texels(std::max(first.x, last.x) + passing.width_m) + 1;
+  const long y_end = texels(std::max(first.y, last.y) + passing.width_m) + 1;
+  for (long y = texels(std::min(first.y, last.y) - passing.width_m); y <= y_end; ++y) {
+    for (long x = texels(std::min(first.x, last.x) - passing.width_m); x <= x_end; ++x) {
+      const Vec2 from_first =
+          first - Vec2{static_cast<double>(x) * texel, static_cast<double>(y) * texel};
+      const double seconds =
+          passing.seconds.front() + (from_first.x * along.x + from_first.y * along.y) / speed;
+      const double inside = std::clamp(seconds, passing.seconds.front(), passing.seconds.back());
+      const double across = from_first.x * along.y - from_first.y * along.x;
+      const double away = std::hypot(across, (seconds - inside) * speed) / passing.width_m;
+      if (away >= 1.0) continue;
+      const double fading = (1.0 - away * away) * (1.0 - away * away);
+      noise_[static_cast<std::size_t>(y & (kSide - 1)) * kSide +
+             static_cast<std::size_t>(x & (kSide - 1))] +=
+          static_cast<float>(fading * deviation_ * ShiftAt(passing, inside));
+    }
   }
 }
 
@@ -189,6 +242,7 @@ void CloudField::MakeColumns() {
   const KindShape shape = ShapeOf(layer_.kind);
   const float threshold = ExceededBy(square, layer_.cover);
   const double deviation = DeviationOf(square);
+  deviation_ = deviation;
   const double edge = CloudyDepth(layer_);
   const auto grown = [&](double value) {
     return std::pow(std::max(0.0, (value - threshold) / deviation), shape.growth);
@@ -234,8 +288,8 @@ std::shared_ptr<const CloudField> CloudField::Of(const CloudLayer& layer) {
 }
 
 Vec2 CloudField::InPeriods(double east_m, double north_m, double seconds) const {
-  const double u = (east_m - velocity_m_s_.x * seconds) / period_m_;
-  const double v = (north_m - velocity_m_s_.y * seconds) / period_m_;
+  const double u = (east_m - layer_.east_m - velocity_m_s_.x * seconds) / period_m_;
+  const double v = (north_m - layer_.north_m - velocity_m_s_.y * seconds) / period_m_;
   return {u - std::floor(u), v - std::floor(v)};
 }
 

@@ -19,8 +19,8 @@ struct CloudStatistics {
 
 /// A layer of clouds as a field of columns: vertical optical depth and height above the base, from
 /// hashed noise. Cover and mean optical depth are those of the description within kCoverSquare_m at
-/// 0 s. With cells of up to 8 km the square is a period of the field, and they hold at all times.
-/// The field moves with the wind and keeps its shape.
+/// 0 s, without the strip of CloudPassing. With cells of up to 8 km the square is a period of the
+/// field, and they hold at all times. The field moves with the wind and keeps its shape.
 ///
 /// Coordinates are east, north, up in metres from the place; the ground is a plane. A column's
 /// extinction is uniform between the base and its top. Thread-safe.
@@ -33,6 +33,9 @@ class CloudField {
   static std::shared_ptr<const CloudField> Of(const CloudLayer& layer);
 
   explicit CloudField(const CloudLayer& layer);
+  /// The field of the same layer, displaced and with passing clouds, in 2 ms. `bare` has neither,
+  /// and cells of up to 8 km.
+  CloudField(const CloudField& bare, Vec2 displacement_m, const CloudPassing& passing);
 
   const CloudLayer& layer() const { return layer_; }
 
@@ -75,6 +78,7 @@ class CloudField {
   static constexpr double kMinRise = 1e-3;
 
   void MakeColumns();
+  void AddPassing();
   /// The noise at the points by which cover and mean are defined, at 0 s.
   std::vector<float> NoiseOfSquare() const;
   /// Place in the field, in periods, 0…1.
@@ -105,6 +109,7 @@ class CloudField {
   double uniform_depth_ = 0.0;  ///< Without noise.
   double inverse_reference_ = 0.0, flat_share_ = 1.0;
   std::vector<float> noise_;  ///< Rows to the north. Empty: uniform.
+  double deviation_ = 0.0;    ///< Of the noise, without passing clouds.
   float lowest_ = 0.0F, entries_per_unit_ = 0.0F;
   std::vector<float> depths_;
 };

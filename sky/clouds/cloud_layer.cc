@@ -110,6 +110,40 @@ Result<void> CheckCloudNumber(const CloudNumber& number, double value) {
                         " (" + number.unit + ")");
 }
 
+Result<void> CheckPassing(const CloudPassing& passing) {
+  const std::size_t count = passing.seconds.size();
+  if (passing.shifts.size() != count || count == 1 || count > kMaxPassingTimes) {
+    return InputError(
+        {},
+        "passing clouds have " + std::to_string(count) + " seconds and " +
+            std::to_string(passing.shifts.size()) + " shifts",
+        "give one shift for each of 2 to " + std::to_string(kMaxPassingTimes) + " times");
+  }
+  const auto outside = [](double value, double most) { return !(std::fabs(value) <= most); };
+  constexpr double kMost_m = 1e6, kMost_s = 1e6;
+  if (outside(passing.east_m, kMost_m) || outside(passing.north_m, kMost_m)) {
+    return InputError({}, "the place of passing clouds is impossible",
+                      "give east_m and north_m within " + Shown(kMost_m) + " m");
+  }
+  if (!(passing.width_m >= 10.0 && passing.width_m <= 10'000.0)) {
+    return InputError({}, "width_m " + Shown(passing.width_m) + " of passing clouds is impossible",
+                      "give a number from 10 to 10000 (metres)");
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    if (outside(passing.seconds[i], kMost_s) ||
+        (i > 0 && passing.seconds[i] <= passing.seconds[i - 1])) {
+      return InputError({}, "seconds of passing clouds do not rise at " + Shown(passing.seconds[i]),
+                        "order them, within " + Shown(kMost_s));
+    }
+    if (outside(passing.shifts[i], kMaxPassingShift)) {
+      return InputError({},
+                        "shift " + Shown(passing.shifts[i]) + " of passing clouds is impossible",
+                        "give a number within " + Shown(kMaxPassingShift));
+    }
+  }
+  return {};
+}
+
 Result<CloudLayer> MakeCloudLayer(const CloudLayerFacts& facts) {
   if (!facts.kind) {
     return InputError({}, "a cloud layer has no kind", "give for example kind=cumulus");
@@ -129,6 +163,19 @@ Result<CloudLayer> MakeCloudLayer(const CloudLayerFacts& facts) {
   layer.wind_m_s = facts.wind_m_s.value_or(0.0);
   layer.wind_from_deg = facts.wind_from_deg.value_or(0.0);
   layer.seed = facts.seed.value_or(1);
+  layer.east_m = facts.east_m.value_or(0.0);
+  layer.north_m = facts.north_m.value_or(0.0);
+  layer.passing = facts.passing;
+  PLEINAIR_RETURN_IF_ERROR(CheckPassing(layer.passing));
+  if (!layer.passing.seconds.empty() && layer.wind_m_s <= 0.0) {
+    return InputError({}, "clouds cannot pass without wind", "give wind_m_s");
+  }
+  if (!layer.passing.seconds.empty() &&
+      (layer.passing.seconds.back() - layer.passing.seconds.front()) * layer.wind_m_s >
+          kMaxPassing_m) {
+    return InputError({}, "passing clouds travel farther than " + Shown(kMaxPassing_m) + " m",
+                      "give fewer seconds, or a smaller wind_m_s");
+  }
   if (layer.kind == CloudKind::kSlab && layer.cover < 1.0) {
     return InputError({}, "cover " + Shown(layer.cover) + " is impossible for a slab",
                       "leave cover out, or choose another kind");

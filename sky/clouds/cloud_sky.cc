@@ -160,18 +160,21 @@ struct CloudSky::Optics {
   std::vector<OfLayer> higher;                 ///< One per layer.
   std::optional<ClearSkyShape> above_highest;  ///< Nothing without layers.
   double global_share = 1.0;                   ///< Share of the clear sky's global illuminance.
-  std::once_flag dome_made;
-  LinearRgb dome;
+};
+
+struct CloudSky::Dome {
+  std::once_flag made;
+  LinearRgb illuminance;
 };
 
 CloudSky::~CloudSky() = default;
 
-CloudSky::CloudSky(std::unique_ptr<sky::SkyModel> clear, CloudFields fields, double ground_albedo,
-                   double seconds)
+CloudSky::CloudSky(std::shared_ptr<const sky::SkyModel> clear, CloudFields fields,
+                   double ground_albedo, double seconds)
     : clear_(std::move(clear)),
       fields_(std::move(fields)),
       seconds_(seconds),
-      optics_(std::make_unique<Optics>()) {
+      dome_(std::make_unique<Dome>()) {
   std::stable_sort(fields_.begin(), fields_.end(), [](const auto& a, const auto& b) {
     return a->layer().base_m < b->layer().base_m;
   });
@@ -179,19 +182,30 @@ CloudSky::CloudSky(std::unique_ptr<sky::SkyModel> clear, CloudFields fields, dou
   sun_transmittance_ = SunTransmittance(fields_, {}, to_sun, seconds);
   const std::vector<LayerShares> shares = SharesOf(fields_, to_sun, seconds);
   area_ = AreaLightOf(fields_, shares, *clear_, ground_albedo);
-  optics_->higher.reserve(fields_.size());
+  const auto optics = std::make_shared<Optics>();
+  optics->higher.reserve(fields_.size());
   for (std::size_t i = 0; i < fields_.size(); ++i) {
     HigherOrders orders(fields_[i]->layer().kind, to_sun.xyz.z);
     const double down = (shares[i].Transmitted() - shares[i].direct) * to_sun.xyz.z;
-    optics_->higher.push_back({orders, MeanHigherScale(*fields_[i], orders, to_sun.xyz, down)});
+    optics->higher.push_back({orders, MeanHigherScale(*fields_[i], orders, to_sun.xyz, down)});
   }
-  if (!fields_.empty()) optics_->above_highest.emplace(*clear_, TableOf(*fields_.back()));
+  if (!fields_.empty()) optics->above_highest.emplace(*clear_, TableOf(*fields_.back()));
   const double sun = Luminance(clear_->SunNormalIrradiance()) * std::max(0.0, to_sun.xyz.z);
   const double above = Luminance(clear_->SkyHorizontalIrradiance()) + sun;
   if (above > 0.0) {
-    optics_->global_share = Luminance(area_.sky_horizontal + area_.sun_horizontal) / above;
+    optics->global_share = Luminance(area_.sky_horizontal + area_.sun_horizontal) / above;
   }
+  optics_ = optics;
 }
+
+CloudSky::CloudSky(const CloudSky& other, double seconds)
+    : clear_(other.clear_),
+      fields_(other.fields_),
+      seconds_(seconds),
+      sun_transmittance_(SunTransmittance(fields_, {}, clear_->ToSun(), seconds)),
+      area_(other.area_),
+      optics_(other.optics_),
+      dome_(std::make_unique<Dome>()) {}
 
 CloudSky::Seen CloudSky::Look(Direction<World> from) const {
   Seen seen;
@@ -244,8 +258,9 @@ LinearRgb CloudSky::SunNormalIrradiance() const {
 
 // Two grids, with weights that add to 1: one of the dome, and a finer one around the sun. There the
 // aureole of thin clouds is narrower than the dome's cells.
-LinearRgb CloudSky::IntegrateDome() const {
-  constexpr int kRings = 96, kSectors = 192, kSunRings = 40, kSunSectors = 48;
+LinearRgb CloudSky::DomeIlluminance(int rings) const {
+  const int sectors = 2 * rings, sun_rings = (5 * rings + 11) / 12, sun_sectors = rings / 2;
+  const auto first_sun_ring = static_cast<std::size_t>(rings);
   constexpr double kInner = 3.0 * kRadiansPerDegree, kOuter = 10.0 * kRadiansPerDegree;
   const auto dome_weight = [](double from_sun) {
     const double x = std::clamp((from_sun - kInner) / (kOuter - kInner), 0.0, 1.0);
@@ -254,27 +269,27 @@ LinearRgb CloudSky::IntegrateDome() const {
   const Vec3 sun = ToSun().xyz;
   const Vec3 across = sun.z < 0.999 ? Normalized(Cross(sun, {0.0, 0.0, 1.0})) : Vec3{1.0, 0.0, 0.0};
   const Vec3 upwards = Cross(across, sun);
-  std::vector<LinearRgb> sums(kRings + kSunRings);
-  ParallelFor(kRings + kSunRings, 0, [&](std::size_t row) {
+  std::vector<LinearRgb> sums(static_cast<std::size_t>(rings + sun_rings));
+  ParallelFor(sums.size(), 0, [&](std::size_t row) {
     const auto add = [&](Vec3 direction, double weight) {
       if (weight > 0.0) sums[row] = sums[row] + SkyRadiance({direction}) * weight;
     };
-    if (row < kRings) {
-      const double zenith = 0.5 * pi * (static_cast<double>(row) + 0.5) / kRings;
+    if (row < first_sun_ring) {
+      const double zenith = 0.5 * pi * (static_cast<double>(row) + 0.5) / rings;
       const double up = std::cos(zenith), level = std::sin(zenith);
-      for (int sector = 0; sector < kSectors; ++sector) {
-        const double azimuth = 2.0 * pi * (sector + 0.5) / kSectors;
+      for (int sector = 0; sector < sectors; ++sector) {
+        const double azimuth = 2.0 * pi * (sector + 0.5) / sectors;
         const Vec3 direction{level * std::sin(azimuth), level * std::cos(azimuth), up};
         add(direction, dome_weight(std::acos(std::clamp(Dot(direction, sun), -1.0, 1.0))) * up *
-                           level * (0.5 * pi / kRings) * (2.0 * pi / kSectors));
+                           level * (0.5 * pi / rings) * (2.0 * pi / sectors));
       }
       return;
     }
-    const double x = (static_cast<double>(row - kRings) + 0.5) / kSunRings;
+    const double x = (static_cast<double>(row - first_sun_ring) + 0.5) / sun_rings;
     const double angle = kOuter * x * x;
-    const double solid = std::sin(angle) * 2.0 * kOuter * x / kSunRings * 2.0 * pi / kSunSectors;
-    for (int sector = 0; sector < kSunSectors; ++sector) {
-      const double about = 2.0 * pi * (sector + 0.5) / kSunSectors;
+    const double solid = std::sin(angle) * 2.0 * kOuter * x / sun_rings * 2.0 * pi / sun_sectors;
+    for (int sector = 0; sector < sun_sectors; ++sector) {
+      const double about = 2.0 * pi * (sector + 0.5) / sun_sectors;
       const Vec3 direction = sun * std::cos(angle) + across * (std::sin(angle) * std::cos(about)) +
                              upwards * (std::sin(angle) * std::sin(about));
       if (direction.z <= 0.0) continue;
@@ -287,8 +302,9 @@ LinearRgb CloudSky::IntegrateDome() const {
 }
 
 LinearRgb CloudSky::SkyHorizontalIrradiance() const {
-  std::call_once(optics_->dome_made, [this] { optics_->dome = IntegrateDome(); });
-  return optics_->dome;
+  constexpr int kRings = 96;
+  std::call_once(dome_->made, [this] { dome_->illuminance = DomeIlluminance(kRings); });
+  return dome_->illuminance;
 }
 
 sky::SkyModel::AirBetween CloudSky::AirTo(Direction<World> towards, Metres distance) const {

@@ -40,8 +40,11 @@ AreaLight ComputeAreaLight(const CloudFields& fields, const sky::SkyModel& clear
 /// A homogeneous layer gives IlluminanceBelow() within 2 % (tests/sky/clouds/cloud_sky_test.cc).
 class CloudSky : public sky::SkyModel {
  public:
-  CloudSky(std::unique_ptr<sky::SkyModel> clear, CloudFields fields, double ground_albedo,
+  CloudSky(std::shared_ptr<const sky::SkyModel> clear, CloudFields fields, double ground_albedo,
            double seconds);
+  /// The same clouds at another time, with the sun, the clear sky and the means over the area of
+  /// `other`. Takes a millisecond.
+  CloudSky(const CloudSky& other, double seconds);
   ~CloudSky() override;
 
   LinearRgb SkyRadiance(Direction<World> from) const override;
@@ -54,6 +57,9 @@ class CloudSky : public sky::SkyModel {
 
   const sky::SkyModel& clear() const { return *clear_; }
   double sun_transmittance() const { return sun_transmittance_; }
+  /// SkyHorizontalIrradiance() by `rings` rings of 2 × `rings` directions, and fewer near the sun.
+  /// With 24 rings, within 2 % in a thirteenth of the time.
+  LinearRgb DomeIlluminance(int rings) const;
   /// Mean illuminance of level ground over the area.
   const AreaLight& area() const { return area_; }
 
@@ -64,14 +70,15 @@ class CloudSky : public sky::SkyModel {
     double clear_share = 1.0;  ///< Share of the clear sky's radiance that is seen.
   };
   Seen Look(Direction<World> from) const;
-  LinearRgb IntegrateDome() const;
 
-  std::unique_ptr<sky::SkyModel> clear_;
+  std::shared_ptr<const sky::SkyModel> clear_;
   CloudFields fields_;  ///< From the lowest base up.
   double seconds_;
   double sun_transmittance_ = 1.0;
   AreaLight area_;
-  std::unique_ptr<Optics> optics_;
+  std::shared_ptr<const Optics> optics_;
+  struct Dome;
+  std::unique_ptr<Dome> dome_;
 };
 
 }  // namespace pleinair::clouds

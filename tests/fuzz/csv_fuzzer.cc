@@ -6,6 +6,7 @@
 
 #include "app/leaf/leaf_table.h"
 #include "app/leaf/spectrum_fit.h"
+#include "app/output/light_csv_file.h"
 #include "app/sky/shadow_points.h"
 #include "app/sky/sky_directions.h"
 #include "app/sun/sun_table.h"
@@ -42,6 +43,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       if (!(std::fabs(row.place_m.x) <= 1e6 && std::fabs(row.seconds) <= 1e7)) std::abort();
     }
   } else if (table.error().what.empty()) {
+    std::abort();
+  }
+  if (const auto rows = pleinair::app::ParseLightCsv(text, "table")) {
+    for (const auto& row : *rows) {
+      if (!(row.sun.r >= 0.0 && row.sky.b >= 0.0 && row.sun_to_sky_error >= 0.0)) std::abort();
+    }
+  } else if (rows.error().what.empty() || rows.error().remedy.empty()) {
     std::abort();
   }
   // The text of a layer of clouds, from the command line.

@@ -229,6 +229,33 @@ TEST(SceneToml, LayersOfCloudsMustBePossible) {
   EXPECT_THAT(with(cumulus + next + next + next + next), HasSubstr("keep 4 at most"));
 }
 
+TEST(SceneToml, LayersOfCloudsMayPassInStep) {
+  const std::string layer =
+      "[[cloud_layer]]\nkind = \"cumulus\"\nwind_m_s = 8\neast_m = 70\nnorth_m = -20\n";
+  const std::string passing = "[cloud_layer.passing]\nwidth_m = 400\nnorth_m = -900\n";
+  const std::string times = "seconds = [0, 2.5, 4]\n", shifts = "shifts = [-1, 0, 2.25]\n";
+  const auto with = [&](const std::string& rest) {
+    return Refusal(std::string(kScene) + layer + rest);
+  };
+  const auto scene = CompleteScene(
+      ParseSceneToml(std::string(kScene) + layer + passing + times + shifts, "scene.toml").value(),
+      "scene.toml");
+  ASSERT_TRUE(scene) << scene.error().Message();
+  const clouds::CloudLayer& found = scene->clouds.layers.at(0);
+  EXPECT_EQ(found.east_m, 70.0);
+  EXPECT_EQ(found.north_m, -20.0);
+  EXPECT_EQ(found.passing.width_m, 400.0);
+  EXPECT_EQ(found.passing.east_m, 0.0);
+  EXPECT_EQ(found.passing.north_m, -900.0);
+  EXPECT_EQ(found.passing.seconds, (std::vector<double>{0.0, 2.5, 4.0}));
+  EXPECT_EQ(found.passing.shifts, (std::vector<double>{-1.0, 0.0, 2.25}));
+  EXPECT_THAT(with(passing), HasSubstr("has no seconds"));
+  EXPECT_THAT(with(passing + times), HasSubstr("3 seconds and 0 shifts"));
+  EXPECT_THAT(with(passing + times + "shifts = [1, 2, \"3\"]\n"), HasSubstr("is not a number"));
+  EXPECT_THAT(with(passing + "seconds = 3\n"), HasSubstr("is not a list of numbers"));
+  EXPECT_THAT(with(passing + times + shifts + "depth = 3\n"), HasSubstr("\"depth\" is unknown"));
+}
+
 TEST(SceneToml, WhatIsMissingIsNamed) {
   EXPECT_THAT(Refusal(tests::Replaced(kScene, "size_mm = 480\n", "")),
               HasSubstr("how large the marker"));

@@ -1,10 +1,13 @@
 #include "app/output/light_csv.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <utility>
 #include <vector>
+
+#include "app/output/light_csv_file.h"
 
 namespace pleinair::app {
 namespace {
@@ -38,6 +41,39 @@ TEST(LightCsv, InterpolatesFramesWithoutAPose) {
   EXPECT_EQ(all[4].sun.g, 0.25) << "that of the last";
   EXPECT_EQ(all[3].source, Source::kColors);
   EXPECT_TRUE(WithMissingFrames({}, frames).empty());
+}
+
+TEST(LightCsv, IsReadAsItWasWritten) {
+  const std::vector<LightRow> rows{
+      {3, 250'000'000, {0.5, 0.4, 0.3}, {0.1, 0.1, 0.1}, 0.0625, Source::kSurfaces},
+      {4, 500'000'000, {0.0, 0.0, 0.0}, {0.2, 0.2, 0.2}, 0.5, Source::kTotalOnly}};
+  const auto read = ParseLightCsv(LightCsv(rows), "light.csv");
+  ASSERT_TRUE(read) << read.error().Message();
+  ASSERT_EQ(read->size(), 2U);
+  EXPECT_EQ(read->at(0).timestamp_ns, 250'000'000);
+  EXPECT_EQ(read->at(0).sun, rows[0].sun);
+  EXPECT_EQ(read->at(1).sky, rows[1].sky);
+  EXPECT_EQ(read->at(1).source, Source::kTotalOnly);
+  EXPECT_EQ(LightCsv(*read), LightCsv(rows));
+}
+
+TEST(LightCsv, OfOthersIsRefusedWithItsLine) {
+  const std::string good = LightCsv({{3, 250, {1, 1, 1}, {1, 1, 1}, 0.1, Source::kHeld}});
+  const auto refusal = [](const std::string& text) {
+    const auto read = ParseLightCsv(text, "light.csv");
+    return read ? std::string("no error") : read.error().Message();
+  };
+  const auto with = [&](const char* from, const char* to) {
+    std::string text = good;
+    return refusal(text.replace(text.find(from), std::string(from).size(), to));
+  };
+  using ::testing::HasSubstr;
+  EXPECT_EQ(refusal(good), "no error");
+  EXPECT_THAT(refusal(""), HasSubstr("is empty"));
+  EXPECT_THAT(with("sky_g", "green"), HasSubstr("column sky_g is missing"));
+  EXPECT_THAT(with("held", "moon"), HasSubstr("light.csv:2: the source \"moon\" is unknown"));
+  EXPECT_THAT(with("3,0", "-3,0"), HasSubstr("light.csv:2: frame is not a possible number"));
+  EXPECT_THAT(refusal(good + good.substr(good.find('\n') + 1)), HasSubstr("does not rise"));
 }
 
 }  // namespace

@@ -160,5 +160,49 @@ TEST(CloudShadow, ChangesNoFasterThanTheDiscAllows) {
   EXPECT_GT(steepest, 0.1 * bound);
 }
 
+// A cloud passes from 100 s to 200 s, after a gap.
+TEST(CloudField, LetsCloudsPassAtKnownTimes) {
+  CloudLayer layer = Layer("kind=cumulus,cover=0.5,wind_m_s=10,wind_from_deg=270,seed=4");
+  layer.passing = {.east_m = 300.0,
+                   .north_m = -200.0,
+                   .width_m = 500.0,
+                   .seconds = {0.0, 90.0, 110.0, 190.0, 210.0, 300.0},
+                   .shifts = {-6.0, -6.0, 6.0, 6.0, -6.0, -6.0}};
+  const CloudField field(layer);
+  for (int seconds = 0; seconds <= 300; seconds += 5) {
+    const double depth = field.ColumnDepth(300.0, -200.0, seconds);
+    if (seconds < 80 || seconds > 220) {
+      EXPECT_EQ(depth, 0.0) << seconds;
+    }
+    if (seconds > 120 && seconds < 180) {
+      EXPECT_GT(depth, 20.0) << seconds;
+    }
+  }
+  // The strip passes other places at other times, and keeps its shape.
+  for (const double along : {-700.0, 900.0}) {
+    EXPECT_NEAR(field.ColumnDepth(300.0 + along, -200.0, 150.0 + along / 10.0),
+                field.ColumnDepth(300.0, -200.0, 150.0), 1e-3);
+  }
+  CloudLayer bare = layer;
+  bare.passing = {};
+  const CloudField without(bare);
+  EXPECT_EQ(field.ColumnDepth(300.0, 400.0, 150.0), without.ColumnDepth(300.0, 400.0, 150.0));
+  EXPECT_EQ(field.ColumnDepth(4500.0, -200.0, 150.0), without.ColumnDepth(4500.0, -200.0, 150.0));
+  EXPECT_NEAR(field.Statistics(0.0).cover, 0.5, 0.01);
+  // The quick copy is the same field.
+  const CloudField copy(without, {}, layer.passing);
+  for (int x = 0; x < 3000; x += 37) {
+    EXPECT_EQ(copy.ColumnDepth(x, -200.0, 150.0), field.ColumnDepth(x, -200.0, 150.0));
+  }
+}
+
+TEST(CloudField, IsDisplaced) {
+  const CloudField field(Layer("kind=cumulus,seed=4"));
+  const CloudField moved(Layer("kind=cumulus,seed=4,east_m=1000,north_m=-500"));
+  for (int x = 0; x < 5000; x += 73) {
+    EXPECT_NEAR(moved.ColumnDepth(x + 1000.0, x - 500.0, 0.0), field.ColumnDepth(x, x, 0.0), 1e-2);
+  }
+}
+
 }  // namespace
 }  // namespace pleinair::clouds

@@ -30,9 +30,19 @@ TEST(CloudLayer, HasTheDefaultsOfItsKind) {
 TEST(CloudLayer, TakesEveryKey) {
   const CloudLayer layer = *ParseCloudLayer(
       " kind = cirrus , cover=0.25,optical_depth=1.5,base_m=9000,thickness_m=800,cell_m=4000,"
-      "wind_m_s=30,wind_from_deg=250,seed=-9000000000000000000");
-  EXPECT_EQ(layer, (CloudLayer{CloudKind::kCirrus, 0.25, 1.5, 9000, 800, 4000, 30, 250,
-                               -9'000'000'000'000'000'000}));
+      "wind_m_s=30,wind_from_deg=250,seed=-9000000000000000000,east_m=120,north_m=-7.5");
+  EXPECT_EQ(layer, (CloudLayer{CloudKind::kCirrus,
+                               0.25,
+                               1.5,
+                               9000,
+                               800,
+                               4000,
+                               30,
+                               250,
+                               -9'000'000'000'000'000'000,
+                               120,
+                               -7.5,
+                               {}}));
 }
 
 struct BadLayer {
@@ -82,6 +92,33 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(CloudyDepth, IsBelowTheMeanDepth) {
   EXPECT_EQ(CloudyDepth(*ParseCloudLayer("kind=cumulus")), 0.3);
   EXPECT_EQ(CloudyDepth(*ParseCloudLayer("kind=cirrus,optical_depth=0.2")), 0.1);
+}
+
+TEST(CloudPassing, IsRefusedWhereItIsImpossible) {
+  CloudLayerFacts facts;
+  facts.kind = CloudKind::kCumulus;
+  facts.wind_m_s = 8.0;
+  facts.passing.seconds = {0.0, 10.0};
+  facts.passing.shifts = {1.0, -1.0};
+  EXPECT_TRUE(MakeCloudLayer(facts).has_value());
+  const auto refused = [&](const char* what, const auto& change) {
+    CloudLayerFacts bad = facts;
+    change(bad);
+    const auto layer = MakeCloudLayer(bad);
+    ASSERT_FALSE(layer.has_value()) << what;
+    EXPECT_THAT(layer.error().Message(), HasSubstr(what));
+  };
+  refused("without wind", [](CloudLayerFacts& f) { f.wind_m_s = 0.0; });
+  refused("3 shifts", [](CloudLayerFacts& f) { f.passing.shifts.push_back(0.0); });
+  refused("1 seconds", [](CloudLayerFacts& f) {
+    f.passing.seconds = {1.0};
+    f.passing.shifts = {1.0};
+  });
+  refused("do not rise at 10", [](CloudLayerFacts& f) { f.passing.seconds = {10.0, 10.0}; });
+  refused("shift 21", [](CloudLayerFacts& f) { f.passing.shifts[0] = 21.0; });
+  refused("width_m 0", [](CloudLayerFacts& f) { f.passing.width_m = 0.0; });
+  refused("farther than 40000 m", [](CloudLayerFacts& f) { f.passing.seconds[1] = 6000.0; });
+  refused("the place", [](CloudLayerFacts& f) { f.passing.east_m = 1e9; });
 }
 
 }  // namespace
