@@ -170,7 +170,7 @@ void Warn(ReplayState& state) {
   add(DrawingWarnings(state.renderer().samples()));
   add(CloudWarnings(state.scene()));
   if (state.scene().objects.empty()) {
-    warnings.emplace_back("The scene has no virtual object: the frames are unchanged.");
+    warnings.push_back(NoObjectWarning(state.options.scene.has_value()));
   } else if (AssumesGround(state.scene())) {
     warnings.emplace_back(
         "The scene has no phantom: level ground in the marker's plane is assumed. Describe what is "

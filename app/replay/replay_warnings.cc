@@ -297,4 +297,15 @@ std::vector<std::string> LightWarnings(const session::LightSummary& summary,
   return warnings;
 }
 
+std::string NoObjectWarning(bool replaces_own) {
+  std::string warning = "The scene has no virtual object: the frames are unchanged.";
+  if (replaces_own) {
+    warning +=
+        " A scene given with --scene takes place, time, sky and marker from the recording's own, "
+        "but "
+        "no models: add [[object]] and [[phantom]] to it.";
+  }
+  return warning;
+}
+
 }  // namespace pleinair::app

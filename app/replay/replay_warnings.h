@@ -41,4 +41,7 @@ std::vector<std::string> BlurWarnings(const session::CameraSummary& drawn);
 std::vector<std::string> LightWarnings(const session::LightSummary& summary,
                                        const std::vector<LightRow>& rows = {});
 
+/// For a scene without objects. `replaces_own`: the scene replaces that of the recording.
+std::string NoObjectWarning(bool replaces_own);
+
 }  // namespace pleinair::app

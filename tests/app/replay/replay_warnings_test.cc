@@ -81,5 +81,10 @@ TEST(LightWarnings, ReportWhatTheLightCannotBe) {
   EXPECT_THAT(LightWarnings(light), ElementsAre(HasSubstr("12.0 degrees below the horizon")));
 }
 
+TEST(ReplayWarnings, SayWhatASceneOfCloudsAloneLacks) {
+  EXPECT_EQ(NoObjectWarning(false), "The scene has no virtual object: the frames are unchanged.");
+  EXPECT_THAT(NoObjectWarning(true), ::testing::HasSubstr("add [[object]] and [[phantom]]"));
+}
+
 }  // namespace
 }  // namespace pleinair::app
