@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -92,7 +93,7 @@ Result<void> RunClouds(const CloudsArguments& arguments) {
   constexpr double kWellKnown = 0.1;
   if (fitted.errors.light > kWellKnown) {
     std::cerr << "pleinair: the layer gives the film's light within "
-              << static_cast<int>(100.0 * fitted.errors.light + 0.5)
+              << std::lround(100.0 * fitted.errors.light)
               << " % only; another --kind or --wind-m-s may give it better\n";
   }
   return {};

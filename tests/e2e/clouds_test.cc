@@ -47,14 +47,14 @@ void WriteReplay(const std::filesystem::path& folder, const std::vector<double>&
 // The film's clouds are those of `sky`, of another seed and wind than those that are fitted.
 TEST(Clouds, PassInStepWithTheFilm) {
   const TemporaryFolder folder;
-  const std::vector<std::string> sky = {"sky",
-                                        "--at",
-                                        "50.0875,14.4213",
-                                        "--time",
-                                        "2025-09-14T11:05:00Z",
-                                        "--cloud-layer",
-                                        "kind=cumulus,cover=0.45,wind_m_s=9,wind_from_deg=300,"
-                                        "seed=505"};
+  const std::vector<std::string> sky = {
+      "sky",
+      "--at",
+      "50.0875,14.4213",
+      "--time",
+      "2025-09-14T11:05:00Z",
+      "--cloud-layer",
+      "kind=cumulus,cover=0.45,wind_m_s=9,wind_from_deg=300,seed=505"};
   constexpr int kFrames = 120;
   std::string points = "east_m,north_m,seconds\n";
   for (int i = 0; i < kFrames; ++i) points += fmt::format("0,0,{}\n", i);
