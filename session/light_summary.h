@@ -64,7 +64,7 @@ struct CameraSummary {
   DefocusSource defocus = DefocusSource::kOff;
   std::optional<compositor::ThinLens> lens;  ///< At the last frame.
   int lens_places = 0;                       ///< DefocusOptions::places.
-  FrameExposure::Exposure exposure;          ///< Of the last frame, by which motion blurs.
+  FrameExposure::Exposure exposure;          ///< The last frame's, by which motion blurs.
   compositor::LensFigures drawn_lens;        ///< The largest of all frames so far.
   double mixed_pixels = 0.0;                 ///< Composer::MixedPixels().
 };

@@ -138,7 +138,7 @@ std::optional<CameraPose> Pipeline::FollowIn(const devices::Frame& last_tracked)
   std::optional<CameraPose> pose = FollowMarkersIn(last_tracked);
   if (!pose || renderer_->exposure().IsOff()) return pose;
   pose->exposure_s = last_tracked.settings.exposure_s;
-  // Of the past alone: the reference marker shows how the camera moved last.
+  // By the past alone: the reference marker shows how the camera moved last.
   const std::vector<Observation>& track = tracks_.TrackOf(pose->marker);
   if (!track.empty() && track.back().frame_index == last_tracked.index) {
     pose->motion =

@@ -199,7 +199,7 @@ class SceneRenderer {
     std::optional<CameraLookFilter> look;  // Empty: they stay sharp and clean.
     FrameLens lens;
     FrameExposure exposure;
-    compositor::CameraMotion motion;  // Of the frame; empty: at rest.
+    compositor::CameraMotion motion;  // In the frame; empty: at rest.
     int max_views = 1;
   } matched_;
   Edited edited_;

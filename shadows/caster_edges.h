@@ -8,8 +8,8 @@ namespace pleinair::shadows {
 /// triangles. Coordinates of the caster, metres.
 struct CasterEdge {
   glm::vec3 a{0.0F}, b{0.0F};  ///< Its ends.
-  glm::vec3 normal{0.0F};      ///< Of one triangle, any length.
-  glm::vec3 other{0.0F};       ///< Of the other one; zero: a border.
+  glm::vec3 normal{0.0F};      ///< That of one triangle, any length.
+  glm::vec3 other{0.0F};       ///< That of the other one; zero: a border.
 
   /// Whether the caster's outline, as seen from `to_sun`, has this edge.
   bool IsOutline(const glm::dvec3& to_sun) const {

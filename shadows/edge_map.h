@@ -12,9 +12,9 @@
 namespace pleinair::shadows {
 
 /// Outlines of casters in the texels of a shadow map. A map has one depth a texel, so that edges of
-/// shadows have steps of a texel. With the line at which its caster ends, a texel is divided where
-/// the shadow is: the silhouette maps of Sen, Cammarano and Hanrahan 2003, "Shadow silhouette
-/// maps", with lines in place of points.
+/// shadows have steps of a texel. The line at which its caster ends divides a texel where the
+/// shadow ends. Sen, Cammarano and Hanrahan 2003, "Shadow silhouette maps", divide it by a point
+/// on the outline.
 class EdgeMap {
  public:
   /// The two lines of a texel that are nearest to its centre, as EdgeLine() in

@@ -162,7 +162,7 @@ class ShadowMaps {
   gl::GlTexture depth_;    // Array of partitions, 0…1 over the depth range.
   gl::GlTexture bounds_;   // Pyramid of minimum and maximum depth, from a quarter of the size down.
   gl::GlTexture moments_;  // Moment methods.
-  EdgeMap edges_;          // Of the finest map; the sun's disc.
+  EdgeMap edges_;          // For the finest map; the sun's disc.
   BlurBuffer blur_;
   gl::GlVertexArray no_vertices_;
   Programs programs_;

@@ -202,8 +202,11 @@ Result<void> RunLive(const CLI::App& command, const LiveArguments& arguments) {
   PLEINAIR_RETURN_IF_ERROR(ParseDefocus(arguments.drawing.defocus, &options.light.defocus));
   PLEINAIR_RETURN_IF_ERROR(
       ParseMotionBlur(arguments.drawing.motion_blur, &options.light.motion_blur));
-  // Each view takes about as long as an image at rest.
+  // Each view takes about as long as an image at rest, so that a session asks for them.
   constexpr int kLiveViews = 8;
+  if (arguments.drawing.motion_blur.mode.empty() && !arguments.drawing.motion_blur.exposure_ms) {
+    options.light.motion_blur.mode = session::MotionBlurMode::kOff;
+  }
   options.light.motion_blur.max_views = kLiveViews;
   options.scene.camera.recorded_lens = session::StatedLens(options.scene, options.light);
   const scene::SceneDescription scene = options.scene;

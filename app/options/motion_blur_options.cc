@@ -12,8 +12,9 @@ void AddMotionBlurOptions(CLI::App& command, MotionBlurArguments& arguments) {
       .add_option(
           "--motion-blur", arguments.mode,
           "Blur of virtual objects by the camera's motion while a frame is exposed: auto, "
-          "by the exposure of scene, recording or frames, else measured on the marker "
-          "(default); off; stated, by scene or options alone; measured, by the frames alone")
+          "by the exposure of scene, recording or frames, else measured on the marker; off; "
+          "stated, by scene or options alone; measured, by the frames alone. By default "
+          "replay takes auto, and live off")
       ->check(CLI::IsMember({"auto", "off", "stated", "measured"}))
       ->type_name("MODE");
   command

@@ -28,7 +28,7 @@ struct ExposureFit {
 ///
 /// Two tests keep other blur that grows with speed out, such as that of a film's compression. The
 /// term of motion has to be three standard errors, and so has that of a second fit, in which each
-/// frame has a blur of its own and only the differences between its sides count. Refuses, too,
+/// frame has a blur of its own and only the differences between its sides count. Refuses
 /// where a whole `frame_interval_s` would move no edge by a pixel, where the blur by motion adds
 /// less than 0.1 px to the fastest edges, and where the exposure is longer than the interval.
 ///

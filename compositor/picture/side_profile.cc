@@ -189,7 +189,7 @@ std::optional<BlurReading> ReadBlur(const SideProfile& profile, double own_blur_
 
 namespace {
 
-// Of the search for the own blur of a lens.
+// For the search for the own blur of a lens.
 constexpr int kRepetitions = 5;
 constexpr double kUsualBlur_px = 0.4, kSettled_px = 0.003;
 

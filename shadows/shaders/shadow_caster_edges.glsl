@@ -18,8 +18,8 @@ float ShadowTexelBlocks(int set, int slice, vec4 size, ShadowReceiver r, ivec2 t
   return depth < 1.0 && depth * size.w < plane ? 1.0 : 0.0;
 }
 
-// Share of a texel's part of the box that is blocked. The texel's lines (EdgeLine) divide it: the
-// part with its centre is as its own depth says, and beyond a line it is as the next texel there.
+// Share of a texel's part of the box that is blocked. The texel's lines (EdgeLine) divide it. The
+// part with its centre is as its depth says, and that beyond a line is as the next texel there.
 // `low`, `high`: of the part, from the texel's centre.
 float ShadowDivided(int set, int slice, vec4 size, ShadowReceiver r, ivec2 texel, uvec2 lines,
                     vec2 low, vec2 high) {

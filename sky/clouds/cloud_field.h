@@ -109,7 +109,7 @@ class CloudField {
   double uniform_depth_ = 0.0;  ///< Without noise.
   double inverse_reference_ = 0.0, flat_share_ = 1.0;
   std::vector<float> noise_;  ///< Rows to the north. Empty: uniform.
-  double deviation_ = 0.0;    ///< Of the noise, without passing clouds.
+  double deviation_ = 0.0;    ///< The noise's, without passing clouds.
   float lowest_ = 0.0F, entries_per_unit_ = 0.0F;
   std::vector<float> depths_;
 };

@@ -12,7 +12,7 @@
 namespace pleinair::clouds {
 namespace {
 
-constexpr double kColumn_m = kCoverSquare_m / 1024.0;  ///< Of cells up to 8 km.
+constexpr double kColumn_m = kCoverSquare_m / 1024.0;  ///< For cells up to 8 km.
 constexpr int kSearchSamples = 48;
 constexpr double kSearchStep_m = 200.0;
 

@@ -35,7 +35,7 @@ double NoiseOf(const std::vector<double>& values) {
   for (std::size_t i = 1; i + 1 < values.size(); ++i) {
     changes.push_back(std::fabs(values[i - 1] - 2.0 * values[i] + values[i + 1]));
   }
-  // Of a normal distribution: the median of its magnitude is 0.6745 deviations.
+  // In a normal distribution the median of the magnitude is 0.6745 deviations.
   return changes.empty() ? 0.0 : Median(changes) / (0.6745 * std::sqrt(6.0));
 }
 

@@ -47,7 +47,7 @@ struct FilmLayer {
   /// True if nothing is left of the sun: the optical depth is a lower bound.
   bool is_opaque = false;
   FilmLayerErrors errors;
-  FilmCourse light;  ///< Of the layer, at times of the film. Slabs have no `sky`.
+  FilmCourse light;  ///< The layer's, at times of the film. Slabs have no `sky`.
 };
 
 /// Sun over sky on level ground under the clear sky.

@@ -32,7 +32,7 @@ TEST(TracedBoards, HaveTheEdgeOfADisc) {
         TraceBoards(SceneOf({{20.0, -100.0, 200.0, 100.0, circle_px, 0.8F}}), 40, 3);
     for (int x = 0; x < 40; ++x) {
       double expected = 0.0;
-      constexpr int kParts = 64;  // Of the pixel's width.
+      constexpr int kParts = 64;  // Across the pixel's width.
       for (int i = 0; i < kParts; ++i) {
         expected += DiscSide((x + (i + 0.5) / kParts - 20.0) / std::fabs(circle_px));
       }
@@ -76,7 +76,7 @@ TEST(TracedBoards, HaveTheEdgeOfABoxBeforeAMovingCamera) {
   const Image<float> light = TraceMovingCamera(scene, camera);
   for (int x = 0; x < camera.width; ++x) {
     double expected = 0.0;
-    constexpr int kParts = 64;  // Of the pixel's width.
+    constexpr int kParts = 64;  // Across the pixel's width.
     for (int i = 0; i < kParts; ++i) {
       expected += std::clamp((x + (i + 0.5) / kParts - 20.0) / kMoved_px + 0.5, 0.0, 1.0) / kParts;
     }

@@ -93,7 +93,7 @@ TEST(ComposerMotion, KeepsTheBytesOfWhatItDoesNotTouch) {
   for (int x = 0; x < kSmall.width; ++x) frame(x, 3, 1) = static_cast<std::uint8_t>(x);
   const Drawing still{kByLayers, {}, {}};
   const RgbImage off = ComposeThrough(boards, frame, kSmall, {}, still);
-  // Of 0.2 pixels: the same bytes.
+  // By 0.2 pixels: the same bytes.
   const RgbImage slow = ComposeThrough(boards, frame, kSmall, {}, Moving(0.2 * 2.0 / kSmall.fx));
   EXPECT_TRUE(std::equal(off.data(), off.data() + off.size(), slow.data()));
   const RgbImage moved = ComposeThrough(boards, frame, kSmall, {}, Moving(8.0 * 2.0 / kSmall.fx));

@@ -20,7 +20,7 @@ struct Simulated {
   double common = 0.0;  ///< Further squared blur of all sides of a frame, over its squared speed.
   double nearest_m = 1.0, farthest_m = 1.1;
   double circle_px_m = 0.0;  ///< Diameter of the circle of confusion over 1/z.
-  double direction = 0.3;    ///< Of the motion, radians from the picture's right.
+  double direction = 0.3;    ///< The motion's, radians from the picture's right.
   double noise = 0.04, noise_px = 0.03;
   int frames = 40;
 };

@@ -50,7 +50,7 @@ double ShareOfLight(const CloudFields& fields) {
 // Kasten & Czeplak 1980: 1 - 0.75 N^3.4, where N is the share of the sky that an observer sees
 // covered. Clouds with sides cover more of it than of the ground.
 TEST(MeanLight, IsThatOfObserversWhoSeeAsMuchCloud) {
-  // Of a mean sky: under an overcast one, a quarter of the light is left at an optical depth of 40.
+  // By a mean sky: under an overcast one, a quarter of the light is left at an optical depth of 40.
   for (const char* text :
        {"kind=cumulus,cover=0.25", "kind=cumulus,cover=0.4", "kind=stratocumulus,cover=0.25",
         "kind=stratocumulus,cover=0.6", "kind=cumulus,cover=0.5,optical_depth=40",

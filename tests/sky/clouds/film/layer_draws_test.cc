@@ -13,7 +13,7 @@
 namespace pleinair::clouds {
 namespace {
 
-// Layers of other seeds, covers, depths and winds than those of the draws. Of 96 courses, 65 are
+// Layers of other seeds, covers, depths and winds than those of the draws. Among 96 courses 65 are
 // expected within the range of 68 %. Courses of one layer are not independent: 3 deviations of 12
 // independent layers are 0.4.
 TEST(LayerDraws, StateAnUncertaintyThatHolds) {
