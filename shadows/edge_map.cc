@@ -17,8 +17,8 @@ constexpr unsigned kNormalBits = 11, kDistanceBits = 10;
 
 std::uint32_t DistanceOf(std::uint32_t line) { return line & ((1U << kDistanceBits) - 1U); }
 
-/// Whether two lines of a texel are the same to a fortieth of a texel. Both sides of an open surface
-/// have such lines, and so has a flat one that is cut in two.
+/// Whether two lines of a texel are the same to a fortieth of a texel. Both sides of an open
+/// surface have such lines, and so has a flat one that is cut in two.
 bool AreAlike(std::uint32_t line, std::uint32_t other) {
   constexpr int kAlike = 32;
   const auto differ = [&](unsigned shift, unsigned bits) {
