@@ -9,42 +9,28 @@
 
 namespace pleinair::session {
 
-const char* NameOf(DefocusSource source) {
-  switch (source) {
-    case DefocusSource::kOff:
-      return "off";
-    case DefocusSource::kStated:
-      return "stated";
-    case DefocusSource::kMetadata:
-      return "metadata";
-    case DefocusSource::kMeasured:
-      break;
-  }
-  return "measured";
-}
-
 Result<FrameLens> FrameLens::Create(const scene::SceneDescription& scene,
                                     const DefocusOptions& options, bool match_look) {
   FrameLens lens;
-  if (options.mode == DefocusMode::kOff) return lens;
-  if (options.mode == DefocusMode::kAuto && !match_look) return lens;
-  if (options.mode == DefocusMode::kMeasured) {
+  if (options.mode == LensFactMode::kOff) return lens;
+  if (options.mode == LensFactMode::kAuto && !match_look) return lens;
+  if (options.mode == LensFactMode::kMeasured) {
     lens.may_be_measured_ = true;
     return lens;
   }
   scene::LensDescription stated = scene.camera.lens.value_or(scene::LensDescription());
   if (options.focus_dioptres) stated.focus_dioptres = {*options.focus_dioptres};
   if (options.aperture_m) stated.aperture_m = options.aperture_m;
-  if (options.mode == DefocusMode::kStated && !stated.IsComplete()) {
+  if (options.mode == LensFactMode::kStated && !stated.IsComplete()) {
     return InputError("--defocus stated",
                       stated.aperture_m ? "no focus is stated" : "no aperture is stated",
                       "add focus_m and aperture_mm to [lens] in the scene, or --focus and "
                       "--aperture-mm");
   }
-  lens.source_ = DefocusSource::kStated;
+  lens.source_ = LensFactSource::kStated;
   if (!stated.IsComplete() && scene.camera.recorded_lens) {
     // What the recording states completes what the scene leaves out.
-    lens.source_ = DefocusSource::kMetadata;
+    lens.source_ = LensFactSource::kMetadata;
     if (stated.focus_dioptres.empty())
       stated.focus_dioptres = scene.camera.recorded_lens->focus_dioptres;
     if (!stated.aperture_m) stated.aperture_m = scene.camera.recorded_lens->aperture_m;
@@ -55,7 +41,7 @@ Result<FrameLens> FrameLens::Create(const scene::SceneDescription& scene,
   }
   lens.lens_ = stated;
   if (!stated.IsComplete()) {
-    lens.source_ = DefocusSource::kOff;
+    lens.source_ = LensFactSource::kOff;
     lens.may_be_measured_ = true;
   }
   return lens;
@@ -71,7 +57,7 @@ compositor::KnownLens FrameLens::Known() const {
 
 void FrameLens::UseMeasured(const compositor::FocusFit& fit, const std::vector<FrameTime>& frames) {
   if (!fit.is_measured()) return;
-  source_ = DefocusSource::kMeasured;
+  source_ = LensFactSource::kMeasured;
   lens_.aperture_m = fit.aperture_m;
   lens_.focus_dioptres = {fit.focus_dioptres};
   if (fit.changes.empty() || frames.empty()) return;
@@ -86,7 +72,7 @@ void FrameLens::UseMeasured(const compositor::FocusFit& fit, const std::vector<F
 }
 
 std::optional<compositor::ThinLens> FrameLens::Of(std::int64_t frame_index) const {
-  if (source_ == DefocusSource::kOff) return std::nullopt;
+  if (source_ == LensFactSource::kOff) return std::nullopt;
   const std::vector<double>& focus = lens_.focus_dioptres;
   const auto last = static_cast<std::int64_t>(focus.size()) - 1;
   return compositor::ThinLens{

@@ -61,7 +61,7 @@ struct CameraSummary {
   /// Blur and noise of the last frames; with a lens, the blur is that in focus. Empty where they
   /// are not matched or cannot be measured.
   std::optional<compositor::CameraLook> look;
-  DefocusSource defocus = DefocusSource::kOff;
+  LensFactSource defocus = LensFactSource::kOff;
   std::optional<compositor::ThinLens> lens;  ///< At the last frame.
   int lens_places = 0;                       ///< DefocusOptions::places.
   FrameExposure::Exposure exposure;          ///< The last frame's, by which motion blurs.

@@ -205,7 +205,7 @@ Result<void> RunLive(const CLI::App& command, const LiveArguments& arguments) {
   // Each view takes about as long as an image at rest, so that a session asks for them.
   constexpr int kLiveViews = 8;
   if (arguments.drawing.motion_blur.mode.empty() && !arguments.drawing.motion_blur.exposure_ms) {
-    options.light.motion_blur.mode = session::MotionBlurMode::kOff;
+    options.light.motion_blur.mode = session::LensFactMode::kOff;
   }
   options.light.motion_blur.max_views = kLiveViews;
   options.scene.camera.recorded_lens = session::StatedLens(options.scene, options.light);

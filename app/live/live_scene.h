@@ -33,7 +33,7 @@ class LiveScene {
       : described_(described),
         edit_(session::UneditedScene(described, drawing, light.convergence)) {}
 
-  /// Begins to follow sun and sky by the frames of Follow(), unless `light` holds them, and to
+  /// Begins to follow sun and sky by the frames of Follow(), unless `light` holds them. Begins to
   /// measure what is not stated of lens and exposure. `camera`: the lens of the frames. Call it
   /// before the frames are tracked.
   void StartFollowing(const CameraModel& camera, const session::LightOptions& light,

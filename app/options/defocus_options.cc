@@ -51,17 +51,14 @@ void AddDefocusOptions(CLI::App& command, DefocusArguments& arguments) {
 }
 
 Result<void> ParseDefocus(const DefocusArguments& arguments, session::DefocusOptions* defocus) {
-  using session::DefocusMode;
-  defocus->mode = arguments.mode == "off"        ? DefocusMode::kOff
-                  : arguments.mode == "stated"   ? DefocusMode::kStated
-                  : arguments.mode == "measured" ? DefocusMode::kMeasured
-                                                 : DefocusMode::kAuto;
+  using session::LensFactMode;
+  defocus->mode = session::LensFactModeOf(arguments.mode);
   const auto has_no_effect = [&](const char* option) {
     return InputError(option, "has no effect with --defocus " + arguments.mode,
                       "leave out one of them");
   };
-  const bool is_off = defocus->mode == DefocusMode::kOff;
-  const bool ignores_stated = is_off || defocus->mode == DefocusMode::kMeasured;
+  const bool is_off = defocus->mode == LensFactMode::kOff;
+  const bool ignores_stated = is_off || defocus->mode == LensFactMode::kMeasured;
   if (!arguments.focus.empty()) {
     if (ignores_stated) return has_no_effect("--focus");
     const std::optional<double> focus_m = files::ParseNumber(arguments.focus);

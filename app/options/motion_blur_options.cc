@@ -25,13 +25,10 @@ void AddMotionBlurOptions(CLI::App& command, MotionBlurArguments& arguments) {
 
 Result<void> ParseMotionBlur(const MotionBlurArguments& arguments,
                              session::MotionBlurOptions* motion_blur) {
-  using session::MotionBlurMode;
-  motion_blur->mode = arguments.mode == "off"        ? MotionBlurMode::kOff
-                      : arguments.mode == "stated"   ? MotionBlurMode::kStated
-                      : arguments.mode == "measured" ? MotionBlurMode::kMeasured
-                                                     : MotionBlurMode::kAuto;
+  using session::LensFactMode;
+  motion_blur->mode = session::LensFactModeOf(arguments.mode);
   if (!arguments.exposure_ms) return {};
-  if (motion_blur->mode == MotionBlurMode::kOff || motion_blur->mode == MotionBlurMode::kMeasured) {
+  if (motion_blur->mode == LensFactMode::kOff || motion_blur->mode == LensFactMode::kMeasured) {
     return InputError("--exposure-ms", "has no effect with --motion-blur " + arguments.mode,
                       "leave out one of them");
   }

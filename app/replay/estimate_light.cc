@@ -26,8 +26,8 @@ Result<void> MeasureLens(ReplayState& state) {
   if (!state.renderer().DrawsObjects() || state.report.path.empty()) return {};
   const session::FrameLens& lens = state.renderer().lens();
   const session::LightOptions& options = state.options.light;
-  const bool wants_focus = options.defocus.mode == session::DefocusMode::kMeasured;
-  const bool wants_exposure = options.motion_blur.mode == session::MotionBlurMode::kMeasured;
+  const bool wants_focus = options.defocus.mode == session::LensFactMode::kMeasured;
+  const bool wants_exposure = options.motion_blur.mode == session::LensFactMode::kMeasured;
   const bool measures_focus =
       lens.MayBeMeasured() && (wants_focus || session::MayTellFocus(*state.pipeline));
   const bool measures_exposure = state.renderer().exposure().MayBeMeasured() &&

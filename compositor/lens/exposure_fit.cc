@@ -16,7 +16,7 @@ constexpr std::size_t kMinReadings = 16;
 constexpr int kRounds = 3;
 constexpr double kLeastSignificance = 3.0;  // Standard errors.
 constexpr double kLeastStreak_px = 1.0;     // In a whole interval between frames.
-constexpr double kLeastRise_px = 0.1;       // Of the blur of the fastest edges.
+constexpr double kLeastRise_px = 0.1;       // In the blur of the fastest edges.
 constexpr double kLongestExposure = 1.1;    // Intervals: cameras' clocks are not exact.
 constexpr double kBox = 12.0;               // Squared length of a box over its second moment.
 

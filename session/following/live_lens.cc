@@ -36,7 +36,7 @@ void LiveLens::Show(std::shared_ptr<const devices::Frame> frame,
                     const Transform<Camera, Marker>& camera_from_marker,
                     const scene::MarkerReflectance& marker) {
   const std::lock_guard lock(mutex_);
-  std::deque<Shown>& shown = shared_.shown;
+  std::deque<ShownFrame>& shown = shared_.shown;
   if (!shown.empty()) {
     const double step_s = SecondsOf(frame->timestamp_ns - shown.back().frame->timestamp_ns);
     if (step_s > 0.0 && (shared_.interval_s == 0.0 || step_s < shared_.interval_s)) {

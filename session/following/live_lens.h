@@ -16,13 +16,14 @@
 #include "compositor/picture/side_profile.h"
 #include "devices/frame.h"
 #include "scene/marker_reflectance.h"
+#include "session/following/shown_frame.h"
 #include "session/lens_measurement.h"
 
 namespace pleinair::session {
 
 /// Measures focus, aperture and exposure of a live session on the marker, as MeasureLens() does for
-/// a recording, by the frames so far. A thread of low priority reads five frames a second, and fits
-/// those of the last 20 s every 2 s, so that no frame waits for it.
+/// a recording, by the frames so far. A thread of low priority reads five frames a second. It
+/// fits those of the last 20 s every 2 s. No frame waits for it.
 class LiveLens {
  public:
   /// `camera`: the lens of the frames. `known`: what is stated.
@@ -43,20 +44,15 @@ class LiveLens {
   void Stop();
 
  private:
-  struct Shown {
-    std::shared_ptr<const devices::Frame> frame;
-    Transform<Camera, Marker> camera_from_marker;
-    scene::MarkerReflectance marker;
-  };
   /// A frame to be read, and the poses around it.
   struct Job {
-    Shown shown;
+    ShownFrame shown;
     std::optional<compositor::MarkerMotion> motion;
   };
   /// State that the thread and its callers share.
   struct Shared {
     bool stop = false;
-    std::deque<Shown> shown{};  // The last three.
+    std::deque<ShownFrame> shown{};  // The last three.
     std::optional<Job> job{};
     std::optional<MeasuredLens> news{};
     double interval_s = 0.0;  // The shortest between two frames.

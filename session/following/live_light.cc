@@ -43,7 +43,7 @@ void LiveLight::Show(std::shared_ptr<const devices::Frame> frame,
                      const Transform<Camera, Marker>& camera_from_marker,
                      const scene::MarkerReflectance& marker) {
   const std::lock_guard lock(mutex_);
-  shared_.shown = Shown{std::move(frame), camera_from_marker, marker};
+  shared_.shown = ShownFrame{std::move(frame), camera_from_marker, marker};
   changed_.notify_all();
 }
 
@@ -63,7 +63,7 @@ void LiveLight::Follow() {
   while (true) {
     changed_.wait(lock, [&] { return shared_.stop || shared_.shown; });
     if (shared_.stop) return;
-    const Shown shown = *std::exchange(shared_.shown, std::nullopt);
+    const ShownFrame shown = *std::exchange(shared_.shown, std::nullopt);
     const auto references = std::exchange(shared_.references, {});
     const auto lit = std::exchange(shared_.lit, std::nullopt);
     if (lit) shared_.lighting = false;

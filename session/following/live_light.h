@@ -16,6 +16,7 @@
 #include "devices/frame.h"
 #include "scene/marker_reflectance.h"
 #include "session/following/forward_follower.h"
+#include "session/following/shown_frame.h"
 #include "session/light_follower.h"
 
 namespace pleinair::session {
@@ -53,11 +54,6 @@ class LiveLight {
   void Stop();
 
  private:
-  struct Shown {
-    std::shared_ptr<const devices::Frame> frame;
-    Transform<Camera, Marker> camera_from_marker;
-    scene::MarkerReflectance marker;
-  };
   struct Lights {
     std::int64_t reference = 0;
     std::vector<compositor::ProbeLight> lights;
@@ -66,7 +62,7 @@ class LiveLight {
   struct Shared {
     bool stop = false;
     std::vector<LightReference> references{};
-    std::optional<Shown> shown{};
+    std::optional<ShownFrame> shown{};
     std::optional<ProbesToLight> to_light{};
     bool lighting = false;  // Probes are being lit, or their light waits to be taken.
     std::optional<Lights> lit{};

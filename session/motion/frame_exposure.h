@@ -7,29 +7,16 @@
 #include "base/error.h"
 #include "compositor/lens/exposure_fit.h"
 #include "scene/scene_description.h"
+#include "session/lens_facts.h"
 
 namespace pleinair::session {
 
-/// Where the time comes from for which the shutter is open.
-enum class MotionBlurMode {
-  kAuto,      ///< Stated by scene or options, else by the recording or its frames, else measured.
-  kOff,       ///< What the camera's motion moves is drawn sharply.
-  kStated,    ///< Stated by scene or options.
-  kMeasured,  ///< Measured in the frames of a recording (session/lens_measurement.h).
-};
-
 /// User options for motion blur. What is set overrides the scene.
 struct MotionBlurOptions {
-  MotionBlurMode mode = MotionBlurMode::kAuto;
+  LensFactMode mode = LensFactMode::kAuto;
   std::optional<double> exposure_s;
   int max_views = 64;  ///< Composer::SetMotion().
 };
-
-/// Which of them is in use.
-enum class ExposureSource { kOff, kStated, kMetadata, kMeasured };
-
-/// As reports name it.
-const char* NameOf(ExposureSource source);
 
 /// For how long the frames are exposed.
 class FrameExposure {
@@ -49,7 +36,7 @@ class FrameExposure {
 
   /// An exposure and its source.
   struct Exposure {
-    ExposureSource source = ExposureSource::kOff;
+    LensFactSource source = LensFactSource::kOff;
     double seconds = 0.0;  ///< 0: not known, or off.
   };
   /// The exposure of a frame. `own_s`: as its camera reports it with the frame. Frames beyond a
@@ -59,7 +46,7 @@ class FrameExposure {
  private:
   bool is_off_ = true, may_be_measured_ = false;
   bool uses_own_ = false;  // Exposures that come with the frames count.
-  ExposureSource source_ = ExposureSource::kOff;
+  LensFactSource source_ = LensFactSource::kOff;
   std::vector<double> exposures_s_;  // None, one, or one a frame.
 };
 

@@ -155,7 +155,7 @@ Json LensJson(const session::CameraSummary& drawn,
               const std::optional<session::MeasuredLens>& measured) {
   const bool is_drawn = drawn.lens.has_value();
   const bool is_by_layers = is_drawn && drawn.lens_places == compositor::kByLayers;
-  const bool is_measured = drawn.defocus == session::DefocusSource::kMeasured && measured;
+  const bool is_measured = drawn.defocus == session::LensFactSource::kMeasured && measured;
   const compositor::FocusFit fit = measured ? measured->fit : compositor::FocusFit();
   const double focus = is_drawn ? drawn.lens->focus_dioptres : 0.0;
   return {
@@ -178,7 +178,7 @@ Json MotionJson(const session::CameraSummary& drawn,
                 const std::optional<session::MeasuredLens>& measured) {
   const bool is_known = drawn.exposure.seconds > 0.0;
   const bool is_measured =
-      drawn.exposure.source == session::ExposureSource::kMeasured && measured.has_value();
+      drawn.exposure.source == session::LensFactSource::kMeasured && measured.has_value();
   return {{"mode", session::NameOf(drawn.exposure.source)},
           {"exposure_ms", IfKnown(is_known, 1e3 * drawn.exposure.seconds)},
           {"exposure_error_ms",

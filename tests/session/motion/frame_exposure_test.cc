@@ -28,7 +28,7 @@ FrameExposure::Exposure Of(const scene::SceneDescription& scene, const MotionBlu
   return exposure->Of(frame, own_s);
 }
 
-MotionBlurOptions InMode(MotionBlurMode mode) {
+MotionBlurOptions InMode(LensFactMode mode) {
   MotionBlurOptions options;
   options.mode = mode;
   return options;
@@ -44,16 +44,16 @@ TEST(FrameExposure, ComesFromOptionsSceneRecordingAndFramesInThisOrder) {
   const scene::SceneDescription all = SceneWith({0.01}, {0.02, 0.03});
   EXPECT_EQ(Of(all, WithExposure(0.005)).seconds, 0.005);
   EXPECT_EQ(Of(all, {}).seconds, 0.01);
-  EXPECT_EQ(Of(all, {}).source, ExposureSource::kStated);
+  EXPECT_EQ(Of(all, {}).source, LensFactSource::kStated);
   const scene::SceneDescription recorded = SceneWith({}, {0.02, 0.03});
   EXPECT_EQ(Of(recorded, {}, 1, 0.04).seconds, 0.03);
   EXPECT_EQ(Of(recorded, {}, 7).seconds, 0.03);
-  EXPECT_EQ(Of(recorded, {}).source, ExposureSource::kMetadata);
+  EXPECT_EQ(Of(recorded, {}).source, LensFactSource::kMetadata);
   EXPECT_EQ(Of({}, {}, 0, 0.04).seconds, 0.04);
-  EXPECT_EQ(Of({}, {}, 0, 0.04).source, ExposureSource::kMetadata);
+  EXPECT_EQ(Of({}, {}, 0, 0.04).source, LensFactSource::kMetadata);
   EXPECT_EQ(Of({}, {}).seconds, 0.0);
-  EXPECT_EQ(Of(all, InMode(MotionBlurMode::kOff), 0, 0.04).seconds, 0.0);
-  EXPECT_EQ(Of(all, InMode(MotionBlurMode::kMeasured), 0, 0.04).seconds, 0.0);
+  EXPECT_EQ(Of(all, InMode(LensFactMode::kOff), 0, 0.04).seconds, 0.0);
+  EXPECT_EQ(Of(all, InMode(LensFactMode::kMeasured), 0, 0.04).seconds, 0.0);
 }
 
 TEST(FrameExposure, IsMeasuredWhereNothingStatesIt) {
@@ -67,15 +67,15 @@ TEST(FrameExposure, IsMeasuredWhereNothingStatesIt) {
   fit.exposure_s = 0.008;
   exposure->UseMeasured(fit);
   EXPECT_EQ(exposure->Of(0, {}).seconds, 0.008);
-  EXPECT_EQ(exposure->Of(0, {}).source, ExposureSource::kMeasured);
+  EXPECT_EQ(exposure->Of(0, {}).source, LensFactSource::kMeasured);
   EXPECT_FALSE(FrameExposure::Create(SceneWith({0.01}, {}), {}, true)->MayBeMeasured());
 }
 
 TEST(FrameExposure, IsOffForACleanLookUnlessStated) {
   EXPECT_TRUE(FrameExposure::Create(SceneWith({0.01}, {}), {}, false)->IsOff());
-  EXPECT_FALSE(FrameExposure::Create(SceneWith({0.01}, {}), InMode(MotionBlurMode::kStated), false)
-                   ->IsOff());
-  EXPECT_NE(tests::MessageOf(FrameExposure::Create({}, InMode(MotionBlurMode::kStated), true))
+  EXPECT_FALSE(
+      FrameExposure::Create(SceneWith({0.01}, {}), InMode(LensFactMode::kStated), false)->IsOff());
+  EXPECT_NE(tests::MessageOf(FrameExposure::Create({}, InMode(LensFactMode::kStated), true))
                 .find("--motion-blur stated: no exposure is stated"),
             std::string::npos);
 }
