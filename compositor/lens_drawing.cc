@@ -18,6 +18,25 @@ void DisableSurfaceTests() {
   glDisable(GL_DEPTH_TEST);
 }
 
+/// Draws the objects' surfaces alone.
+void DrawObjects(const LensScene& scene, const FrameUniforms& frame, const AffectedTiles& tiles) {
+  EnableSurfaceTests();
+  scene.ratio.DrawSurfaces(scene.canvas.targets, scene.surfaces, frame, {});  // Clears.
+  scene.objects.DrawSurfaces(scene.canvas.targets, scene.surfaces, frame, tiles.fine.Bounds());
+  DisableSurfaceTests();
+}
+
+/// Shades what DrawObjects() has drawn.
+void ShadeObjects(const LensScene& scene, const FrameUniforms& frame,
+                  std::span<const PixelRect> within) {
+  glEnable(GL_DEPTH_TEST);
+  scene.light.BindShade();
+  // The coverage of edges is that of the whole scene.
+  scene.objects.Draw(scene.canvas.targets, scene.surfaces, CoveragePass(), scene.programs, frame,
+                     scene.light.environment(), within);
+  glDisable(GL_DEPTH_TEST);
+}
+
 /// Pixels around objects that a spread reaches; 0: it is not drawn.
 int PixelsOf(const FrameSpread& spread) {
   int pixels = 0;
@@ -26,6 +45,35 @@ int PixelsOf(const FrameSpread& spread) {
     pixels += static_cast<int>(std::ceil(0.5 * spread.streak_px)) + 1;
   }
   return pixels;
+}
+
+/// What is drawn of the scene into the tiles. Both must outlive it.
+SceneParts PartsOf(const LensScene& scene, const AffectedTiles& tiles) {
+  Canvas& canvas = scene.canvas;
+  return {.all =
+              [&](const FrameUniforms& seen) {
+                canvas.places.Draw(canvas.targets, seen, tiles.fine.Rectangles(),
+                                   [&](const FrameUniforms& place) { scene.draw(place, tiles); });
+              },
+          .real =
+              [&](const FrameUniforms& seen) {
+                EnableSurfaceTests();
+                scene.ratio.DrawSurfaces(canvas.targets, scene.surfaces, seen, tiles.fine.Bounds());
+                DisableSurfaceTests();
+              },
+          .objects =
+              [&](const FrameUniforms& seen) {
+                return ObjectDrawing{
+                    [&] { DrawObjects(scene, seen, tiles); },
+                    [&](std::span<const PixelRect> within) { ShadeObjects(scene, seen, within); }};
+              },
+          .behind =
+              [&](const FrameUniforms& seen, const ImageTiles& within) {
+                const AffectedTiles part{within, within, tiles.all};
+                canvas.places.Draw(canvas.targets, seen, within.Rectangles(),
+                                   [&](const FrameUniforms& place) { scene.draw(place, part); });
+              },
+          .bind_frame = [&] { canvas.picture.BindForShading(2, 3, 4); }};
 }
 
 }  // namespace
@@ -57,13 +105,18 @@ Result<FrameSpread> LensDrawing::Measure(Canvas& canvas, const LensFrame& lens, 
   return spread;
 }
 
-int LensDrawing::ViewsFor(const FrameSpread& spread) const {
-  if (spread.streak_px < LensPass::kMinStreak_px) return places_;
-  // Edges step by half a pixel from one view to the next, across streak and circle together.
-  constexpr double kViewsPerPixel = 2.0;
-  const double wanted = kViewsPerPixel * (spread.streak_px + spread.circle_px);
-  const int views = static_cast<int>(std::ceil(std::clamp(wanted, 2.0, 1.0 * max_views_)));
-  return std::max(places_, views);
+LensDrawing::Way LensDrawing::WayOf(const FrameSpread& spread) const {
+  const bool is_moved = spread.streak_px >= LensPass::kMinStreak_px;
+  const bool is_blurred = spread.circle_px >= LensPass::kMinCircle_px;
+  if (!is_moved && !is_blurred) return {};
+  if (!is_moved) return {places_ == kByLayers, places_};
+  // Edges step by a pixel from one pose to the next, which their coverage of pixels smooths. Where
+  // places on the stop are drawn as well, edges step across streak and circle together.
+  const bool by_layers = is_blurred && places_ == kByLayers;
+  const double steps =
+      is_blurred && !by_layers ? 2.0 * (spread.streak_px + spread.circle_px) : spread.streak_px;
+  const int views = static_cast<int>(std::ceil(std::clamp(steps, 2.0, 1.0 * max_views_)));
+  return {by_layers, by_layers ? views : std::max(places_, views)};
 }
 
 Result<const RealOccluders*> LensDrawing::Draw(const LensScene& scene, const FrameUniforms& frame,
@@ -74,56 +127,34 @@ Result<const RealOccluders*> LensDrawing::Draw(const LensScene& scene, const Fra
   const LensFrame lens{frame, view, lens_.value_or(ThinLens{}), motion_};
   PLEINAIR_ASSIGN_OR_RETURN(const FrameSpread spread,
                             Measure(canvas, lens, scene.camera_fx, tiles->fine));
-  const int views = ViewsFor(spread);
+  const Way way = WayOf(spread);
   const int spread_px = PixelsOf(spread);
   if (spread_px == 0) return nullptr;
-  if (views == kByLayers && spread_px > scene.spread_px) {
-    // Shadows may lie far from the objects. The image then needs more pixels around it.
-    *tiles = scene.draw_pinhole(spread_px);
-    PLEINAIR_RETURN_IF_ERROR(Measure(canvas, lens, scene.camera_fx, tiles->fine));
+  const SceneParts parts = PartsOf(scene, *tiles);
+  if (way.views == kByLayers) {
+    if (spread_px > scene.spread_px) {
+      // Shadows may lie far from the objects. The image then needs more pixels around it.
+      *tiles = scene.draw_pinhole(spread_px);
+      PLEINAIR_RETURN_IF_ERROR(Measure(canvas, lens, scene.camera_fx, tiles->fine));
+    }
+    return canvas.lens.DrawLayers(canvas.targets, lens, canvas.camera, tiles->fine.Rectangles(),
+                                  parts, &figures_);
   }
-  if (views != kByLayers) {
-    figures_.views = views;
-    *tiles = scene.surfaces.TilesOf(ProjectionOf(
-        canvas.camera, view, canvas.picture.Spread_px() + canvas.places.Spread_px() + spread_px));
-    if (scene.includes_all) tiles->all.IncludeAll();
-    // Nothing is interpolated from the coarse ratio, which is not blurred.
-    tiles->fine.Include(tiles->all);
-    tiles->fine = canvas.picture.SetTiles(*tiles);
-    tiles->objects = tiles->fine;
-  }
+  figures_.views = way.views;
+  *tiles = scene.surfaces.TilesOf(ProjectionOf(
+      canvas.camera, view, canvas.picture.Spread_px() + canvas.places.Spread_px() + spread_px));
+  if (scene.includes_all) tiles->all.IncludeAll();
+  // Nothing is interpolated from the coarse ratio, which is not blurred.
+  tiles->fine.Include(tiles->all);
+  tiles->fine = canvas.picture.SetTiles(*tiles);
+  tiles->objects = tiles->fine;
   const std::vector<PixelRect> within = tiles->fine.Rectangles();
-  const auto bind_frame = [&] { canvas.picture.BindForShading(2, 3, 4); };
-  const auto draw_real = [&](const FrameUniforms& through) {
-    EnableSurfaceTests();
-    scene.ratio.DrawSurfaces(canvas.targets, scene.surfaces, through, tiles->fine.Bounds());
-    DisableSurfaceTests();
-  };
-  const auto draw_objects = [&] {
-    EnableSurfaceTests();
-    scene.ratio.DrawSurfaces(canvas.targets, scene.surfaces, frame, {});  // Clears.
-    scene.objects.DrawSurfaces(canvas.targets, scene.surfaces, frame, tiles->fine.Bounds());
-    DisableSurfaceTests();
-  };
-  const auto shade_objects = [&](std::span<const PixelRect> hidden) {
-    glEnable(GL_DEPTH_TEST);
-    scene.light.BindShade();
-    // The coverage of edges is that of the whole scene.
-    scene.objects.Draw(canvas.targets, scene.surfaces, CoveragePass(), scene.programs, frame,
-                       scene.light.environment(), hidden);
-    glDisable(GL_DEPTH_TEST);
-  };
-  if (views == kByLayers) {
-    return canvas.lens.DrawLayers(canvas.targets, lens, canvas.camera, within,
-                                  {draw_objects, shade_objects}, bind_frame, &figures_);
+  if (way.by_layers) {
+    return canvas.lens.DrawLayersOfPoses(canvas.targets, lens, canvas.camera, way.views, within,
+                                         parts, &figures_);
   }
-  const AveragedViews averaged = ExposureViews(lens, canvas.camera, views);
-  PLEINAIR_RETURN_IF_ERROR(
-      canvas.lens.Draw(canvas.targets, averaged, within, [&](const FrameUniforms& through) {
-        canvas.places.Draw(canvas.targets, through, within,
-                           [&](const FrameUniforms& place) { scene.draw(place, *tiles); });
-      }));
-  return canvas.lens.OccludersIn(canvas.targets, averaged, within, draw_real, bind_frame);
+  return canvas.lens.DrawViews(canvas.targets, ExposureViews(lens, canvas.camera, way.views),
+                               within, parts);
 }
 
 }  // namespace pleinair::compositor

@@ -71,8 +71,12 @@ class LensDrawing {
   /// LensViews::Create().
   Result<FrameSpread> Measure(Canvas& canvas, const LensFrame& lens, double camera_fx,
                               const ImageTiles& drawn);
-  /// Views to be averaged for a spread; kByLayers: none.
-  int ViewsFor(const FrameSpread& spread) const;
+  /// How an image is drawn.
+  struct Way {
+    bool by_layers = true;  ///< Each view by layers of depth.
+    int views = kByLayers;  ///< Averaged; kByLayers: none, the image is at rest.
+  };
+  Way WayOf(const FrameSpread& spread) const;
 
   std::optional<ThinLens> lens_;
   CameraMotion motion_;

@@ -95,6 +95,20 @@ void GlTexture::Download(GLenum format, GLenum type, std::span<std::byte> bytes,
   glGetTextureImage(id(), level, format, type, static_cast<GLsizei>(bytes.size()), bytes.data());
 }
 
+void GlTexture::DownloadPart(int x, int y, int width, int height, GLenum format, GLenum type,
+                             int texel_bytes, std::span<std::byte> bytes) const {
+  if (width == 0 || height == 0) return;
+  const auto first = (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+                      static_cast<std::size_t>(x)) *
+                     static_cast<std::size_t>(texel_bytes);
+  const std::span<std::byte> part = bytes.subspan(first);
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glPixelStorei(GL_PACK_ROW_LENGTH, width_);
+  glGetTextureSubImage(id(), 0, x, y, 0, width, height, 1, format, type,
+                       static_cast<GLsizei>(part.size()), part.data());
+  glPixelStorei(GL_PACK_ROW_LENGTH, 0);
+}
+
 void GlTexture::GenerateMipmaps() { glGenerateTextureMipmap(id()); }
 
 void GlTexture::SetFilter(GLenum minification, GLenum magnification) {

@@ -33,6 +33,11 @@ class GlTexture {
   /// until the renderer has finished.
   void Download(GLenum format, GLenum type, std::span<std::byte> bytes, int level = 0) const;
 
+  /// Copies a rectangle of a 2D texture to its place in memory for all of it. The rest of `bytes`
+  /// is left as it is. `texel_bytes`: of format and type. Blocks as Download().
+  void DownloadPart(int x, int y, int width, int height, GLenum format, GLenum type,
+                    int texel_bytes, std::span<std::byte> bytes) const;
+
   void GenerateMipmaps();
   void SetFilter(GLenum minification, GLenum magnification);
   void SetWrap(GLenum mode);

@@ -14,8 +14,8 @@ namespace {
 
 constexpr int kNone = -1;
 
-/// Channels of what is filled, by the weight of a pixel's farther surfaces.
-enum Channel { kObject = 0, kChange = 4, kObjectCircle = 7, kRealCircle = 8, kChannels = 9 };
+/// Channels of what is filled.
+enum Channel { kChange = 0, kCircle = 3, kChannels = 4 };
 
 /// The largest value within `reach` along a line of values that are `step` apart.
 void MaxAlong(int* values, int count, std::ptrdiff_t step, int reach, std::vector<int>* line) {
@@ -82,40 +82,46 @@ class Depths {
   std::vector<int> front_, farthest_;
 };
 
-/// What the pixels of a window show that is farther than a layer by kLayersApart, with the part of
-/// each that does.
-struct Farther {
+/// Weight of what a pixel shows that is farther than a layer by kLayersApart. More than 1 where an
+/// object lies behind real surfaces.
+struct FartherParts {
+  float object = 0.0F, real[2] = {};
+  float Sum() const { return object + real[0] + real[1]; }
+};
+
+FartherParts FartherThan(const PixelSurfaces& surfaces, int layer, int x, int y) {
+  const PixelSurfaces::Depth& depth = surfaces.DepthAt(x, y);
+  FartherParts parts;
+  if (depth.object_layer >= layer + kLayersApart) parts.object = surfaces.WholeCoverage(x, y);
+  for (const int which : {0, 1}) {
+    if (depth.real_layer[which] < layer + kLayersApart) continue;
+    parts.real[which] = surfaces.RealShare(which, x, y);
+  }
+  return parts;
+}
+
+/// The changes of light of real surfaces in a window that are farther than a layer, as far as
+/// pixels show them.
+struct FartherChanges {
   Image<float> values, weights;
 
-  Farther(const PixelSurfaces& surfaces, const PixelRect& window, int layer)
+  FartherChanges(const PixelSurfaces& surfaces, const PixelRect& window, int layer)
       : values(window.width, window.height, kChannels), weights(values.width(), values.height()) {
     for (int row = 0; row < values.height(); ++row) {
       for (int column = 0; column < values.width(); ++column) {
         const int x = window.x + column, y = window.y + row;
+        const FartherParts parts = FartherThan(surfaces, layer, x, y);
+        const float real = parts.real[0] + parts.real[1];
+        if (real <= 0.0F) continue;
         const PixelSurfaces::Depth& depth = surfaces.DepthAt(x, y);
         float* const value = &values(column, row);
-        float& weight = weights(column, row);
-        const float coverage = surfaces.WholeCoverage(x, y);
-        if (coverage > 0.0F && depth.object_layer >= layer + kLayersApart) {
-          std::copy_n(surfaces.WholeObject(x, y), 4, value + kObject);
-          value[kObjectCircle] = coverage * depth.object_circle_px;
-          weight += coverage;
+        for (int c = 0; c < 3; ++c) {
+          value[kChange + c] = surfaces.Change(x, y, c) / (1.0F - surfaces.SeenCoverage(x, y));
         }
-        float real = 0.0F;
         for (const int which : {0, 1}) {
-          if (depth.real_layer[which] < layer + kLayersApart) continue;
-          const float share = surfaces.RealShare(which, x, y);
-          real += share;
-          value[kRealCircle] += share * depth.real_circle_px[which];
+          value[kCircle] += parts.real[which] / real * depth.real_circle_px[which];
         }
-        if (real > 0.0F) {
-          const float part = real / (1.0F - surfaces.SeenCoverage(x, y));
-          for (int c = 0; c < 3; ++c) value[kChange + c] = part * surfaces.Change(x, y, c);
-          weight += real;
-        }
-        if (weight > 0.0F) {  // More than 1 where an object lies behind real surfaces.
-          for (int c = 0; c < kChannels; ++c) value[c] /= weight;
-        }
+        weights(column, row) = real;
       }
     }
   }
@@ -123,37 +129,66 @@ struct Farther {
 
 }  // namespace
 
-std::vector<HiddenSurface> HiddenSurfaces(const PixelSurfaces& surfaces, const PixelRect& window,
-                                          int reach_px) {
-  std::vector<HiddenSurface> hidden;
+std::vector<HidingPixel> HidingPixels(const PixelSurfaces& surfaces, const PixelRect& window,
+                                      int reach_px) {
+  std::vector<HidingPixel> hiding;
   const Depths depths(surfaces, window, reach_px);
-  if (!depths.HidesAny()) return hidden;
-  std::array<std::vector<std::array<int, 2>>, kLensLayers> hiding;  // Pixels by layer.
-  for (int y = 0; y < window.height; ++y) {
-    for (int x = 0; x < window.width; ++x) {
-      const int layer = depths.HidesBehind(x, y);
-      if (layer != kNone) hiding[static_cast<std::size_t>(layer)].push_back({x, y});
+  if (!depths.HidesAny()) return hiding;
+  for (int row = 0; row < window.height; ++row) {
+    for (int column = 0; column < window.width; ++column) {
+      const int layer = depths.HidesBehind(column, row);
+      if (layer == kNone) continue;
+      const int x = window.x + column, y = window.y + row;
+      const float part = 1.0F - FartherThan(surfaces, layer, x, y).Sum();
+      if (part <= 0.0F) continue;
+      const bool is_object =
+          surfaces.DepthAt(x, y).object_layer == layer && surfaces.WholeCoverage(x, y) > 0.0F;
+      hiding.push_back({x, y, layer, part, is_object});
     }
   }
+  return hiding;
+}
+
+HiddenSurface BehindObject(const HiddenImage& hidden, const ThinLens& lens, double fx,
+                           const HidingPixel& pixel) {
+  const int x = std::clamp(pixel.x, 0, hidden.objects.width() - 1);
+  const int y = std::clamp(pixel.y, 0, hidden.objects.height() - 1);
+  HiddenSurface surface{pixel.x, pixel.y};
+  for (int c = 0; c < 4; ++c) surface.object[c] = pixel.part * hidden.objects(x, y, c);
+  for (int c = 0; c < 3; ++c) surface.change[c] = pixel.part * (hidden.ratio(x, y, c) - 1.0F);
+  const float object = hidden.dioptres(x, y, PinholeImage::kObject);
+  surface.real_circle_px =
+      DrawnCircle_px(lens, fx, hidden.dioptres(x, y, PinholeImage::kNearestReal));
+  // Airlight before a real surface is in the objects' image, too.
+  surface.object_circle_px =
+      object > 0.0F ? DrawnCircle_px(lens, fx, object) : surface.real_circle_px;
+  return surface;
+}
+
+float BehindLayer_dioptres(const ThinLens& lens, double fx, int layer) {
+  const double circle_px = FirstCircle_px(layer + kLayersApart);
+  return static_cast<float>(
+      std::max(0.0, lens.focus_dioptres - circle_px / (fx * lens.aperture_m)));
+}
+
+std::vector<HiddenSurface> BehindRealSurfaces(const PixelSurfaces& surfaces,
+                                              const PixelRect& window,
+                                              std::span<const HidingPixel> pixels) {
+  std::vector<HiddenSurface> hidden;
+  std::array<std::vector<const HidingPixel*>, kLensLayers> by_layer;
+  for (const HidingPixel& pixel : pixels) {
+    if (!pixel.is_object) by_layer[static_cast<std::size_t>(pixel.layer)].push_back(&pixel);
+  }
   for (int layer = 0; layer < kLensLayers; ++layer) {
-    const auto& pixels = hiding[static_cast<std::size_t>(layer)];
-    if (pixels.empty()) continue;
-    const Farther farther(surfaces, window, layer);
+    const auto& hiding = by_layer[static_cast<std::size_t>(layer)];
+    if (hiding.empty()) continue;
+    const FartherChanges farther(surfaces, window, layer);
     const Image<float> filled = FillFromNearest(farther.values, farther.weights);
-    for (const auto& [column, row] : pixels) {
-      const float part = 1.0F - std::min(farther.weights(column, row), 1.0F);
-      if (part <= 0.0F) continue;
-      const float* const value = &filled(column, row);
-      HiddenSurface surface{window.x + column, window.y + row};
-      const PixelSurfaces::Depth& depth = surfaces.DepthAt(surface.x, surface.y);
-      // What real surfaces hide of objects is known.
-      const bool is_object =
-          depth.object_layer == layer && surfaces.WholeCoverage(surface.x, surface.y) > 0.0F;
-      for (int c = 0; c < 4 && is_object; ++c) surface.object[c] = part * value[kObject + c];
-      for (int c = 0; c < 3; ++c) surface.change[c] = part * value[kChange + c];
-      const float object_part = value[kObject + 3], real_part = 1.0F - object_part;
-      if (object_part > 0.0F) surface.object_circle_px = value[kObjectCircle] / object_part;
-      if (real_part > 0.0F) surface.real_circle_px = value[kRealCircle] / real_part;
+    for (const HidingPixel* const pixel : hiding) {
+      const float* const value = &filled(pixel->x - window.x, pixel->y - window.y);
+      HiddenSurface surface{pixel->x, pixel->y};
+      for (int c = 0; c < 3; ++c) surface.change[c] = pixel->part * value[kChange + c];
+      surface.real_circle_px = value[kCircle];
       hidden.push_back(surface);
     }
   }

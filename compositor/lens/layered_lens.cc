@@ -71,28 +71,32 @@ void AddReal(const PixelSurfaces& surfaces, int x, int y, PieceList* list) {
   }
 }
 
-std::vector<SurfacePiece> PiecesOf(const PixelRect& block, const PixelSurfaces& surfaces) {
-  const PixelRect drawn = surfaces.DrawnPart(block);
+/// The part of the image whose pixels reach into a block; without pixels where nothing is drawn.
+PixelRect WindowOf(const PixelSurfaces& surfaces, const PixelRect& drawn) {
   if (drawn.width == 0) return {};
   const int reach = surfaces.ReachInto(drawn);
-  const PixelRect around{drawn.x - reach, drawn.y - reach, drawn.width + 2 * reach,
-                         drawn.height + 2 * reach};
-  PieceList list(block, drawn);
-  for (int y = around.y; y < around.y + around.height; ++y) {
-    for (int x = around.x; x < around.x + around.width; ++x) {
-      AddObject(surfaces, x, y, &list);
-      AddReal(surfaces, x, y, &list);
-    }
+  return {drawn.x - reach, drawn.y - reach, drawn.width + 2 * reach, drawn.height + 2 * reach};
+}
+
+/// Takes what a pixel shows of a farther object out of its nearest one, which got the whole pixel.
+/// The sum of both stays what the pixel shows, so that an inexact part of it matters little.
+void TakeFromNearest(const PixelSurfaces& surfaces, const HiddenSurface& hidden, PieceList* list) {
+  const float farther = 1.0F - surfaces.NearestPart(hidden.x, hidden.y);
+  if (farther <= 0.0F) return;
+  SurfacePiece* const piece =
+      list->Add(hidden.x, hidden.y, surfaces.DepthAt(hidden.x, hidden.y).object_circle_px,
+                surfaces.ObjectPart(hidden.x, hidden.y));
+  if (piece == nullptr) return;
+  for (int c = 0; c < 4; ++c) piece->values[c] = -farther * hidden.object[c];
+}
+
+void AddHidden(const HiddenSurface& hidden, PieceList* list) {
+  if (std::ranges::any_of(hidden.object, [](float value) { return value != 0.0F; })) {
+    SurfacePiece* const piece = list->Add(hidden.x, hidden.y, hidden.object_circle_px, {});
+    if (piece != nullptr) std::copy_n(hidden.object, 4, piece->values);
   }
-  for (const HiddenSurface& hidden : HiddenSurfaces(surfaces, around, reach)) {
-    if (hidden.object[3] > 0.0F) {
-      SurfacePiece* const piece = list.Add(hidden.x, hidden.y, hidden.object_circle_px, {});
-      if (piece != nullptr) std::copy_n(hidden.object, 4, piece->values);
-    }
-    SurfacePiece* const piece = list.Add(hidden.x, hidden.y, hidden.real_circle_px, {});
-    if (piece != nullptr) std::copy_n(hidden.change, 3, piece->values + 4);
-  }
-  return list.Take();
+  SurfacePiece* const piece = list->Add(hidden.x, hidden.y, hidden.real_circle_px, {});
+  if (piece != nullptr) std::copy_n(hidden.change, 3, piece->values + 4);
 }
 
 /// What a pixel shows of all layers.
@@ -147,27 +151,73 @@ void WritePixel(const Composed& composed, int x, int y, LensImage* image) {
 
 }  // namespace
 
-LensImage LayeredLens::Draw(const PinholeImage& image, const ThinLens& lens, double fx,
-                            std::span<const PixelRect> within) {
+void LayeredLens::Begin(const PinholeImage& image, const ThinLens& lens, double fx,
+                        std::span<const PixelRect> within) {
   if (!kernels_ || kernels_->stop() != lens.stop) kernels_.emplace(lens.stop);
-  LensImage drawn{image.ratio, image.objects,
-                  Image<float>(image.ratio.width(), image.ratio.height())};
-  const PixelSurfaces surfaces(image, lens, fx, within);
+  lens_ = lens;
+  fx_ = fx;
+  image_ = &image;
+  surfaces_.emplace(image, lens, fx, within);
   const std::vector<PixelRect> blocks = TilesOf(within);
-  std::vector<std::vector<SurfacePiece>> pieces(blocks.size());
-  ParallelFor(blocks.size(), 0, [&](std::size_t i) { pieces[i] = PiecesOf(blocks[i], surfaces); });
+  blocks_.assign(blocks.size(), {});
+  ParallelFor(blocks.size(), 0, [&](std::size_t i) {
+    Block& block = blocks_[i];
+    block.pixels = blocks[i];
+    block.drawn = surfaces_->DrawnPart(block.pixels);
+    block.window = WindowOf(*surfaces_, block.drawn);
+    if (block.window.width == 0) return;
+    block.hiding = HidingPixels(*surfaces_, block.window, surfaces_->ReachInto(block.drawn));
+  });
+  const int width = image.ratio.width(), height = image.ratio.height();
+  behind_ = {Image<float>(width, height), ImageTiles(width, height)};
+  for (const Block& block : blocks_) {
+    for (const HidingPixel& pixel : block.hiding) {
+      if (!pixel.is_object) continue;
+      const int x = std::clamp(pixel.x, 0, width - 1), y = std::clamp(pixel.y, 0, height - 1);
+      behind_.max_dioptres(x, y) = BehindLayer_dioptres(lens, fx, pixel.layer);
+      behind_.tiles.Include({x + 0.5F, y + 0.5F}, {x + 0.5F, y + 0.5F});
+    }
+  }
+}
+
+std::vector<SurfacePiece> LayeredLens::PiecesOf(const Block& block,
+                                                const HiddenImage& hidden) const {
+  PieceList list(block.pixels, block.drawn);
+  for (int y = block.window.y; y < block.window.y + block.window.height; ++y) {
+    for (int x = block.window.x; x < block.window.x + block.window.width; ++x) {
+      AddObject(*surfaces_, x, y, &list);
+      AddReal(*surfaces_, x, y, &list);
+    }
+  }
+  for (const HidingPixel& pixel : block.hiding) {
+    if (!pixel.is_object) continue;
+    const HiddenSurface behind = BehindObject(hidden, lens_, fx_, pixel);
+    AddHidden(behind, &list);
+    TakeFromNearest(*surfaces_, behind, &list);
+  }
+  for (const HiddenSurface& surface : BehindRealSurfaces(*surfaces_, block.window, block.hiding)) {
+    AddHidden(surface, &list);
+  }
+  return list.Take();
+}
+
+LensImage LayeredLens::Draw(const HiddenImage& hidden) {
+  LensImage drawn{image_->ratio, image_->objects,
+                  Image<float>(image_->ratio.width(), image_->ratio.height())};
+  std::vector<std::vector<SurfacePiece>> pieces(blocks_.size());
+  ParallelFor(blocks_.size(), 0, [&](std::size_t i) { pieces[i] = PiecesOf(blocks_[i], hidden); });
   for (const std::vector<SurfacePiece>& list : pieces) {
     for (const SurfacePiece& piece : list) kernels_->Prepare(piece.kernel);
   }
-  std::vector<int> counts(blocks.size());
-  ParallelFor(blocks.size(), 0, [&](std::size_t i) {
-    const PixelRect& pixels = blocks[i];
+  std::vector<int> counts(blocks_.size());
+  ParallelFor(blocks_.size(), 0, [&](std::size_t i) {
+    const PixelRect& pixels = blocks_[i].pixels;
     if (pieces[i].empty()) return;
     const BlockLayers layers(pieces[i], *kernels_);
     counts[i] = static_cast<int>(layers.layers().size());
     for (int y = 0; y < pixels.height; ++y) {
       for (int x = 0; x < pixels.width; ++x) {
-        if (!surfaces.IsDrawn(pixels.x + x, pixels.y + y)) continue;
+        if (!surfaces_->IsDrawn(pixels.x + x, pixels.y + y)) continue;
         WritePixel(ComposePixel(layers, x, y), pixels.x + x, pixels.y + y, &drawn);
       }
     }

@@ -17,8 +17,19 @@
 
 namespace pleinair::compositor {
 
-/// Depth of field and motion blur of the virtual image (docs/guide/lens.md). Takes memory on first
-/// use. Needs a current OpenGL context; move-only.
+/// Draws parts of a scene into the render targets, as a frame shows them.
+struct SceneParts {
+  LensViews::DrawFrame all, real;  ///< All with its light; the real surfaces' depth alone.
+  std::function<ObjectDrawing(const FrameUniforms&)> objects;
+  /// All with its light into tiles alone, for frames with BehindNearest.
+  std::function<void(const FrameUniforms&, const ImageTiles&)> behind;
+  /// Binds the camera image as RealOccluders::Estimate() requires.
+  std::function<void()> bind_frame;
+};
+
+/// Depth of field and motion blur of the virtual image (docs/guide/lens.md). Each way returns the
+/// real surfaces that cover objects over a part of the lens or of the exposure; null without any.
+/// Takes memory on first use. Needs a current OpenGL context; move-only.
 class LensPass {
  public:
   /// Smaller circles of confusion are not drawn, camera pixels.
@@ -36,33 +47,41 @@ class LensPass {
   /// may have a larger circle than all that it shows: an eighth and two pixels are added.
   static int Spread_px(double circle_px);
 
-  /// Replaces the drawn image in `targets` by that of the lens. Call SpreadOf() first.
-  /// `camera`: that of the targets. `bind_frame` as OccludersIn(). Sets
-  /// the layers and peels of `figures`. Returns as that, too. Errors as PinholeCapture::Create()
-  /// and RealOccluders::Create().
+  /// Replaces the drawn image in `targets` by that of the lens at rest. Call SpreadOf() first.
+  /// `camera`: that of the targets. Sets the layers and peels of `figures`. Errors as
+  /// RealOccluders::Create().
   Result<const RealOccluders*> DrawLayers(RenderTargets& targets, const LensFrame& lens_frame,
                                           const RenderCamera& camera,
                                           std::span<const PixelRect> within,
-                                          const ObjectDrawing& objects,
-                                          const std::function<void()>& bind_frame,
-                                          LensFigures* figures);
+                                          const SceneParts& parts, LensFigures* figures);
 
-  /// As LensViews::Draw(). Errors as LensViews::Create().
-  Result<void> Draw(const RenderTargets& targets, const AveragedViews& views,
-                    std::span<const PixelRect> within, const LensViews::DrawFrame& draw);
+  /// Draws the mean over `poses` of the exposure, each by layers. Call SpreadOf() first. Sets
+  /// `figures` as DrawLayers(). Errors as DrawViews().
+  Result<const RealOccluders*> DrawLayersOfPoses(RenderTargets& targets,
+                                                 const LensFrame& lens_frame,
+                                                 const RenderCamera& camera, int poses,
+                                                 std::span<const PixelRect> within,
+                                                 const SceneParts& parts, LensFigures* figures);
 
-  /// Real surfaces that cover objects in a part of the views, after Draw(); null without any.
-  /// `draw_real`: as LensViews::MeasureOccluders(). `bind_frame` has to bind the camera image, as
-  /// RealOccluders::Estimate() requires. Errors as RealOccluders::Create().
-  Result<const RealOccluders*> OccludersIn(const RenderTargets& targets, const AveragedViews& views,
-                                           std::span<const PixelRect> within,
-                                           const LensViews::DrawFrame& draw_real,
-                                           const std::function<void()>& bind_frame);
+  /// Draws the mean of the views. Errors as LensViews::Create() and RealOccluders::Create().
+  Result<const RealOccluders*> DrawViews(const RenderTargets& targets, const AveragedViews& views,
+                                         std::span<const PixelRect> within,
+                                         const SceneParts& parts);
 
  private:
+  /// The lens's image of the scene that is drawn in `targets`, captured in pinhole_. Their contents
+  /// are lost. Adds to the layers and peels of `figures`.
+  LensImage DrawCaptured(const RenderTargets& targets, const LensFrame& lens_frame,
+                         const RenderCamera& camera, std::span<const PixelRect> within,
+                         const SceneParts& parts, LensFigures* figures);
+  Result<void> CreateViews(const RenderTargets& targets);
+  /// Real surfaces that cover objects at these distances in a part of the views.
+  Result<const RealOccluders*> OccludersIn(const RenderTargets& targets, const AveragedViews& views,
+                                           std::span<const PixelRect> within,
+                                           const ObjectDistances& objects, const SceneParts& parts);
   Result<const RealOccluders*> Occluders(const gl::GlTexture& share,
                                          std::span<const PixelRect> within,
-                                         const std::function<void()>& bind_frame);
+                                         const SceneParts& parts);
 
   std::optional<PinholeCapture> capture_;
   std::optional<LensViews> views_;

@@ -15,14 +15,6 @@ namespace {
 // Shares of the views that count as occluded and as showing an object.
 constexpr float kMinShare = 0.02F;
 
-/// Weight of a view. All are 1 / count but for rounding to multiples of 2⁻²⁰, whose sums are exact:
-/// pixels that no view changes keep their bytes.
-float WeightOf(std::size_t view, std::size_t count) {
-  constexpr std::size_t kUnits = std::size_t{1} << 20U;
-  const std::size_t units = (view + 1) * kUnits / count - view * kUnits / count;
-  return static_cast<float>(units) / static_cast<float>(kUnits);
-}
-
 Image<float> Downloaded(const gl::GlTexture& texture, GLenum format, int channels) {
   Image<float> image(texture.width(), texture.height(), channels);
   texture.Download(format, GL_FLOAT, std::as_writable_bytes(std::span(image.data(), image.size())));
@@ -30,6 +22,12 @@ Image<float> Downloaded(const gl::GlTexture& texture, GLenum format, int channel
 }
 
 }  // namespace
+
+float WeightOfView(std::size_t view, std::size_t count) {
+  constexpr std::size_t kUnits = std::size_t{1} << 20U;
+  const std::size_t units = (view + 1) * kUnits / count - view * kUnits / count;
+  return static_cast<float>(units) / static_cast<float>(kUnits);
+}
 
 Result<LensViews> LensViews::Create(int width, int height) {
   LensViews views;
@@ -73,7 +71,7 @@ void LensViews::AddViews(const RenderTargets& targets, const AveragedViews& view
     bind();
     program.Use();
     SetLensDepth(program, views.planes, targets.samples());
-    program.Set("u_weight", WeightOf(i, count));
+    program.Set("u_weight", WeightOfView(i, count));
     DrawWithin(within);
     glDisable(GL_BLEND);
   }
@@ -96,16 +94,22 @@ void LensViews::Draw(const RenderTargets& targets, const AveragedViews& views,
   DrawWithin(within);
 }
 
-bool LensViews::MeasureOccluders(const RenderTargets& targets, const AveragedViews& views,
-                                 std::span<const PixelRect> within, const DrawFrame& draw_real) {
+ObjectDistances LensViews::Distances() const {
   const Image<float> sums = Downloaded(sums_.distance, GL_RG, 2);
-  Image<float> distances(sums.width(), sums.height()), shares(sums.width(), sums.height());
-  for (std::size_t i = 0; i < shares.size(); ++i) {
+  ObjectDistances objects{Image<float>(sums.width(), sums.height()),
+                          Image<float>(sums.width(), sums.height())};
+  for (std::size_t i = 0; i < objects.share.size(); ++i) {
     const float share = sums.data()[2 * i + 1];
-    shares.data()[i] = share;
-    if (share > 0.0F) distances.data()[i] = sums.data()[2 * i] / share;
+    objects.share.data()[i] = share;
+    if (share > 0.0F) objects.dioptres.data()[i] = sums.data()[2 * i] / share;
   }
-  virtual_.Upload(GL_RED, GL_FLOAT, FillFromNearest(distances, shares).data());
+  return objects;
+}
+
+bool LensViews::MeasureOccluders(const RenderTargets& targets, const AveragedViews& views,
+                                 std::span<const PixelRect> within, const ObjectDistances& objects,
+                                 const DrawFrame& draw_real) {
+  virtual_.Upload(GL_RED, GL_FLOAT, FillFromNearest(objects.dioptres, objects.share).data());
 
   sums_.occluders.Bind();
   sums_.occluders.ClearColor(0, 0, 0, 0, 0);
@@ -113,7 +117,7 @@ bool LensViews::MeasureOccluders(const RenderTargets& targets, const AveragedVie
            [&] { virtual_.Bind(1); });
   const Image<float> occluded = Downloaded(sums_.share, GL_RED, 1);
   for (std::size_t i = 0; i < occluded.size(); ++i) {
-    if (occluded.data()[i] > kMinShare && shares.data()[i] > kMinShare) return true;
+    if (occluded.data()[i] > kMinShare && objects.share.data()[i] > kMinShare) return true;
   }
   return false;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <span>
 #include <vector>
@@ -23,6 +24,16 @@ struct AveragedViews {
   std::vector<FrameUniforms> frames;
 };
 
+/// Where the objects of an image are, per pixel: the mean over the views.
+struct ObjectDistances {
+  Image<float> dioptres;  ///< 1/z, 1/m, where they have a share.
+  Image<float> share;     ///< Of the views and of the pixel's samples, 0…1.
+};
+
+/// Weight of a view. All are 1 / count but for rounding to multiples of 2⁻²⁰, whose sums are exact:
+/// pixels that no view changes keep their bytes.
+float WeightOfView(std::size_t view, std::size_t count);
+
 /// Draws the virtual image from many places, one after another, and averages the linear light. Many
 /// places on a lens's stop, or of a moving camera, give what it sees in all, with what its parts
 /// hide from one another. Needs a current OpenGL context; move-only.
@@ -41,11 +52,15 @@ class LensViews {
   void Draw(const RenderTargets& targets, const AveragedViews& views,
             std::span<const PixelRect> within, const DrawFrame& draw) const;
 
-  /// Measures occluders after Draw(). `draw_real` has to draw the real surfaces alone. Returns
-  /// whether real surfaces cover objects in a part of the views in any pixel. occluder_share()
-  /// then has the share of each pixel.
+  /// Where the objects of the last Draw() are.
+  ObjectDistances Distances() const;
+
+  /// Measures what covers objects at these distances. `draw_real` has to draw the real surfaces
+  /// alone. Returns whether real surfaces cover objects in a part of the views in any pixel.
+  /// occluder_share() then has the share of each pixel.
   bool MeasureOccluders(const RenderTargets& targets, const AveragedViews& views,
-                        std::span<const PixelRect> within, const DrawFrame& draw_real);
+                        std::span<const PixelRect> within, const ObjectDistances& objects,
+                        const DrawFrame& draw_real);
   /// Share of the views that shows a real surface in front of the objects, one channel.
   const gl::GlTexture& occluder_share() const { return sums_.share; }
 

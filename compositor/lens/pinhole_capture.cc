@@ -11,11 +11,42 @@
 namespace pleinair::compositor {
 namespace {
 
-Image<float> Downloaded(const gl::GlTexture& texture) {
-  Image<float> image(texture.width(), texture.height(), 4);
-  texture.Download(GL_RGBA, GL_FLOAT,
-                   std::as_writable_bytes(std::span(image.data(), image.size())));
+/// The rectangle around others.
+PixelRect BoundsOf(std::span<const PixelRect> within) {
+  if (within.empty()) return {};
+  int left = within[0].x, top = within[0].y, right = left, bottom = top;
+  for (const PixelRect& rect : within) {
+    left = std::min(left, rect.x);
+    top = std::min(top, rect.y);
+    right = std::max(right, rect.x + rect.width);
+    bottom = std::max(bottom, rect.y + rect.height);
+  }
+  return {left, top, right - left, bottom - top};
+}
+
+/// Pixels beside the rectangle around `within` have the value 0, as the other targets are cleared.
+Image<float> Downloaded(const gl::GlTexture& texture, std::span<const PixelRect> within,
+                        int channels = 4) {
+  Image<float> image(texture.width(), texture.height(), channels);
+  const PixelRect part = BoundsOf(within);
+  texture.DownloadPart(part.x, part.y, part.width, part.height, channels == 4 ? GL_RGBA : GL_RG,
+                       GL_FLOAT, channels * static_cast<int>(sizeof(float)),
+                       std::as_writable_bytes(std::span(image.data(), image.size())));
   return image;
+}
+
+/// The ratio, which is 1 beside the rectangle around `within`.
+Image<float> DownloadedRatio(const RenderTargets& targets, std::span<const PixelRect> within) {
+  Image<float> ratio = Downloaded(targets.ratio(), within);
+  const PixelRect part = BoundsOf(within);
+  for (int y = 0; y < ratio.height(); ++y) {
+    const bool is_row = y >= part.y && y < part.y + part.height;
+    for (int x = 0; x < ratio.width(); ++x) {
+      if (is_row && x == part.x) x += part.width;
+      if (x < ratio.width()) std::fill_n(&ratio(x, y), 3, 1.0F);
+    }
+  }
+  return ratio;
 }
 
 /// Fills in the distances of surfaces whose part of a pixel lies between the renderer's samples,
@@ -71,8 +102,12 @@ PixelRect Around(const PixelRect& tile, int width, int height) {
 Result<PinholeCapture> PinholeCapture::Create(int width, int height) {
   PinholeCapture capture;
   PLEINAIR_ASSIGN_OR_RETURN(capture.dioptres_, gl::GlTexture::Create2D(GL_RGBA32F, width, height));
-  PLEINAIR_ASSIGN_OR_RETURN(capture.target_,
-                            gl::GlFramebuffer::Create({{{&capture.dioptres_}}, {}}));
+  PLEINAIR_ASSIGN_OR_RETURN(capture.object_parts_,
+                            gl::GlTexture::Create2D(GL_RG32F, width, height));
+  PLEINAIR_ASSIGN_OR_RETURN(capture.behind_, gl::GlTexture::Create2D(GL_R32F, width, height));
+  PLEINAIR_ASSIGN_OR_RETURN(
+      capture.target_,
+      gl::GlFramebuffer::Create({{{&capture.dioptres_}, {&capture.object_parts_}}, {}}));
   PLEINAIR_ASSIGN_OR_RETURN(
       capture.program_,
       gl::GlProgram::Create({.vertex = "compositor/shaders/screen_triangle.vert",
@@ -85,21 +120,23 @@ Image<float> PinholeCapture::Dioptres(const RenderTargets& targets, const shadow
                                       std::span<const PixelRect> within) const {
   target_.Bind();
   target_.ClearColor(0, 0, 0, 1, 0);  // Nothing is known.
+  target_.ClearColor(1, 1, 0, 0, 0);
   no_attributes_.Bind();
   targets.depth().Bind(0);
   targets.ids().Bind(3);
   program_.Use();
   SetLensDepth(program_, view, targets.samples());
   DrawWithin(within);
-  return Downloaded(dioptres_);
+  return Downloaded(dioptres_, within);
 }
 
 PinholeImage PinholeCapture::Capture(const RenderTargets& targets, const shadows::View& view,
                                      std::span<const PixelRect> within) const {
-  PinholeImage image{.ratio = Downloaded(targets.ratio()),
-                     .objects = Downloaded(targets.objects()),
+  PinholeImage image{.ratio = DownloadedRatio(targets, within),
+                     .objects = Downloaded(targets.objects(), within),
                      .objects_alone = {},
-                     .dioptres = Dioptres(targets, view, within)};
+                     .dioptres = Dioptres(targets, view, within),
+                     .object_parts = Downloaded(object_parts_, within, 2)};
   FillBetweenSamples(image.objects, within, &image.dioptres);
   return image;
 }
@@ -124,8 +161,9 @@ void PinholeCapture::AddHidden(const RenderTargets& targets, const shadows::View
   if (tiles.empty()) return;
   objects.draw();
   Image<float> alone = Dioptres(targets, view, tiles);
+  const Image<float> parts = Downloaded(object_parts_, tiles, 2);
   objects.shade(tiles);
-  const Image<float> colors = Downloaded(targets.objects());
+  const Image<float> colors = Downloaded(targets.objects(), tiles);
   FillBetweenSamples(colors, tiles, &alone);
   image->objects_alone = image->objects;
   for (const PixelRect& rect : tiles) {
@@ -134,9 +172,23 @@ void PinholeCapture::AddHidden(const RenderTargets& targets, const shadows::View
                   &image->objects_alone(rect.x, y));
       for (int x = rect.x; x < rect.x + rect.width; ++x) {
         image->dioptres(x, y, PinholeImage::kObject) = alone(x, y, PinholeImage::kObject);
+        std::copy_n(&parts(x, y), 2, &image->object_parts(x, y));
       }
     }
   }
+}
+
+HiddenImage PinholeCapture::CaptureBehind(const RenderTargets& targets, const shadows::View& view,
+                                          const ImageTiles& tiles, const Image<float>& max_dioptres,
+                                          const std::function<void(const BehindNearest&)>& draw) {
+  behind_.Upload(GL_RED, GL_FLOAT, max_dioptres.data());
+  draw({&behind_, static_cast<float>(1.0 / view.near_m), static_cast<float>(1.0 / view.far_m)});
+  const std::vector<PixelRect> within = tiles.Rectangles();
+  HiddenImage hidden{.ratio = DownloadedRatio(targets, within),
+                     .objects = Downloaded(targets.objects(), within),
+                     .dioptres = Dioptres(targets, view, within)};
+  FillBetweenSamples(hidden.objects, within, &hidden.dioptres);
+  return hidden;
 }
 
 }  // namespace pleinair::compositor

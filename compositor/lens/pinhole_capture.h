@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "compositor/lens/pinhole_image.h"
+#include "compositor/passes/frame_uniforms.h"
 #include "compositor/passes/render_targets.h"
 #include "compositor/surfaces/image_tiles.h"
 #include "gl/framebuffer.h"
@@ -39,12 +40,18 @@ class PinholeCapture {
   void AddHidden(const RenderTargets& targets, const shadows::View& view,
                  std::span<const PixelRect> within, const ObjectDrawing& objects,
                  PinholeImage* image) const;
+  /// Copies `targets`, which `draw` draws within the tiles with what lies behind the nearest
+  /// surfaces. `max_dioptres`: BehindNearest::dioptres.
+  HiddenImage CaptureBehind(const RenderTargets& targets, const shadows::View& view,
+                            const ImageTiles& tiles, const Image<float>& max_dioptres,
+                            const std::function<void(const BehindNearest&)>& draw);
 
  private:
+  /// Draws object_parts_, too.
   Image<float> Dioptres(const RenderTargets& targets, const shadows::View& view,
                         std::span<const PixelRect> within) const;
 
-  gl::GlTexture dioptres_;
+  gl::GlTexture dioptres_, object_parts_, behind_;
   gl::GlFramebuffer target_;
   gl::GlProgram program_;
   gl::GlVertexArray no_attributes_;

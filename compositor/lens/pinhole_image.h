@@ -7,6 +7,12 @@
 
 namespace pleinair::compositor {
 
+/// What the virtual image shows behind its nearest surfaces, where these hide others: as the
+/// members of PinholeImage. Empty: nothing is hidden.
+struct HiddenImage {
+  Image<float> ratio, objects, dioptres;
+};
+
 /// The virtual image without a lens, by pixel of the render image, as a lens needs it.
 struct PinholeImage {
   Image<float> ratio;    ///< RenderTargets::ratio(), 4 channels.
@@ -15,6 +21,8 @@ struct PinholeImage {
   Image<float> objects_alone;
   /// 1/z of what a pixel shows, 1/m, by Surface: 0 where there is none, or it is not known.
   Image<float> dioptres;
+  /// The nearest object's part of all objects in a pixel, and 1/z of the farthest, 1/m.
+  Image<float> object_parts;
 
   /// Channels of `dioptres`. kNearestPart: of the real surfaces, the part that the nearest has.
   enum Surface { kObject = 0, kNearestReal = 1, kNearestPart = 2, kFarthestReal = 3 };

@@ -14,19 +14,23 @@ int SideOf(float slope, float steepest) {
 
 }  // namespace
 
+float DrawnCircle_px(const ThinLens& lens, double fx, float dioptres) {
+  const double nearest = 1.0 / lens.MinDistance_m();
+  const double circle_px = SignedCircle_px(lens, fx, std::min<double>(dioptres, nearest));
+  return static_cast<float>(
+      std::clamp(circle_px, -DiscKernels::kMaxCircle_px, DiscKernels::kMaxCircle_px));
+}
+
 PixelSurfaces::PixelSurfaces(const PinholeImage& image, const ThinLens& lens, double fx,
                              std::span<const PixelRect> within)
-    : image_(image),
+    : image_(&image),
+      lens_(lens),
+      fx_(fx),
       depths_(static_cast<std::size_t>(image.ratio.width()) * image.ratio.height()),
       columns_((image.ratio.width() + kCell_px - 1) / kCell_px),
       rows_((image.ratio.height() + kCell_px - 1) / kCell_px),
       cells_(static_cast<std::size_t>(columns_) * rows_) {
-  const double nearest = 1.0 / lens.MinDistance_m();
-  const auto circle = [&](float dioptres) {
-    const double circle_px = SignedCircle_px(lens, fx, std::min<double>(dioptres, nearest));
-    return static_cast<float>(
-        std::clamp(circle_px, -DiscKernels::kMaxCircle_px, DiscKernels::kMaxCircle_px));
-  };
+  const auto circle = [&](float dioptres) { return DrawnCircle_px(lens, fx, dioptres); };
   for (const PixelRect& rect : within) {
     for (int y = rect.y; y < rect.y + rect.height; ++y) {
       for (int x = rect.x; x < rect.x + rect.width; ++x) {
@@ -112,6 +116,13 @@ void PixelSurfaces::FindDrawn() {
       });
     }
   }
+}
+
+float PixelSurfaces::NearestPart(int x, int y) const {
+  const float* const parts = image_->object_parts.data() + 2 * Place(x, y);
+  if (parts[0] >= 1.0F) return 1.0F;
+  const int farthest = LayerOf(DrawnCircle_px(lens_, fx_, parts[1]));
+  return farthest >= DepthAt(x, y).object_layer + kLayersApart ? parts[0] : 1.0F;
 }
 
 bool PixelSurfaces::IsEdge(int x, int y) const {

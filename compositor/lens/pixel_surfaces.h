@@ -14,6 +14,9 @@
 
 namespace pleinair::compositor {
 
+/// SignedCircle_px() of a surface as it is drawn: at most DiscKernels::kMaxCircle_px in size.
+float DrawnCircle_px(const ThinLens& lens, double fx, float dioptres);
+
 /// The surfaces of each pixel of a pinhole image, with their circles of confusion and layers of
 /// depth. Beside the image lie the pixels of its border.
 class PixelSurfaces {
@@ -32,21 +35,24 @@ class PixelSurfaces {
   const Depth& DepthAt(int x, int y) const { return depths_[Place(x, y)]; }
 
   /// What is seen of the object: premultiplied display-linear color, coverage.
-  const float* Object(int x, int y) const { return image_.objects.data() + 4 * Place(x, y); }
+  const float* Object(int x, int y) const { return image_->objects.data() + 4 * Place(x, y); }
   /// The object as if there were no real surfaces.
   const float* WholeObject(int x, int y) const {
-    return (image_.objects_alone.empty() ? image_.objects : image_.objects_alone).data() +
+    return (image_->objects_alone.empty() ? image_->objects : image_->objects_alone).data() +
            4 * Place(x, y);
   }
   float SeenCoverage(int x, int y) const { return std::clamp(Object(x, y)[3], 0.0F, 1.0F); }
   float WholeCoverage(int x, int y) const { return std::clamp(WholeObject(x, y)[3], 0.0F, 1.0F); }
+  /// Part of the object's coverage that is its nearest surface, if other surfaces lie behind that
+  /// by two layers and more; else 1.
+  float NearestPart(int x, int y) const;
   /// Change of the light of real surfaces in a channel: (ratio − 1) times their coverage.
   float Change(int x, int y, int channel) const {
-    return image_.ratio.data()[4 * Place(x, y) + static_cast<std::size_t>(channel)] - 1.0F;
+    return image_->ratio.data()[4 * Place(x, y) + static_cast<std::size_t>(channel)] - 1.0F;
   }
   /// Part of the real surfaces that the nearest (0) or the farthest one (1) has.
   float PartOf(int which, int x, int y) const {
-    const float nearest = image_.dioptres.data()[4 * Place(x, y) + PinholeImage::kNearestPart];
+    const float nearest = image_->dioptres.data()[4 * Place(x, y) + PinholeImage::kNearestPart];
     return which == 0 ? nearest : 1.0F - nearest;
   }
   /// Part of the pixel that shows one of the real surfaces.
@@ -98,13 +104,15 @@ class PixelSurfaces {
   }
 
   std::size_t Place(int x, int y) const {
-    const int column = std::clamp(x, 0, image_.ratio.width() - 1);
-    const int row = std::clamp(y, 0, image_.ratio.height() - 1);
-    return static_cast<std::size_t>(row) * static_cast<std::size_t>(image_.ratio.width()) +
+    const int column = std::clamp(x, 0, image_->ratio.width() - 1);
+    const int row = std::clamp(y, 0, image_->ratio.height() - 1);
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(image_->ratio.width()) +
            static_cast<std::size_t>(column);
   }
 
-  const PinholeImage& image_;
+  const PinholeImage* image_;
+  ThinLens lens_;
+  double fx_;
   std::vector<Depth> depths_;
   int columns_, rows_;  // Numbers of cells.
   std::vector<Cell> cells_;

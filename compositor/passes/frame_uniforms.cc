@@ -1,5 +1,7 @@
 #include "compositor/passes/frame_uniforms.h"
 
+#include <epoxy/gl.h>
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -20,7 +22,7 @@ bool FrameUniforms::IsNoticed(const glm::vec3& airlight) const {
 FrameUniforms FrameUniforms::SeenThrough(glm::vec2 offset_px, glm::vec2 size_px, int number,
                                          int count) const {
   FrameUniforms frame = *this;
-  frame.place = {1.0F / std::sqrt(static_cast<float>(count)), number, count};
+  frame.place = {1.0F / std::sqrt(static_cast<float>(count)), number, count, place.behind};
   frame.ray[0] += offset_px.x * ray[1] + offset_px.y * ray[2];
   glm::mat4 shift(1.0F);  // By the homogeneous coordinate, in clip space.
   shift[3] = {-2.0F * offset_px.x / size_px.x, -2.0F * offset_px.y / size_px.y, 0.0F, 1.0F};
@@ -33,6 +35,22 @@ void FrameUniforms::Set(const gl::GlProgram& program) const {
   program.Set("u_exposure_scale", exposure_scale);
   program.Set("u_to_sun", to_sun);
   program.Set("u_sun_normal_lux", sun_normal_lux);
+}
+
+void FrameUniforms::DrawSides(const gl::GlProgram& program,
+                              const std::function<void()>& draw) const {
+  program.Set("u_clip_from_marker", clip_from_marker);
+  const BehindNearest& behind = place.behind;
+  if (behind.dioptres == nullptr) {
+    draw();
+    return;
+  }
+  behind.dioptres->Bind(23);
+  program.Set("u_near_dioptres", behind.near_dioptres);
+  program.Set("u_far_dioptres", behind.far_dioptres);
+  glDisable(GL_CULL_FACE);
+  draw();
+  glEnable(GL_CULL_FACE);
 }
 
 void FrameUniforms::SetRays(const gl::GlProgram& program) const {

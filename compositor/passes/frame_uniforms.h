@@ -1,10 +1,12 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <glm/glm.hpp>
 
 #include "compositor/passes/aerial_fog.h"
 #include "gl/program.h"
+#include "gl/texture.h"
 
 namespace pleinair::compositor {
 
@@ -15,10 +17,19 @@ struct EnvironmentMix {
   glm::vec3 up{0.0F, 0.0F, 1.0F};
 };
 
+/// What a frame leaves out, so that it shows what lies behind. Of what is left both sides are
+/// drawn, as the far side of a body covers what is behind it, too.
+struct BehindNearest {
+  /// 1/z, 1/m, one channel: each pixel's nearest surface that is drawn. 0: none is. Null: all are.
+  const gl::GlTexture* dioptres = nullptr;
+  float near_dioptres = 0.0F, far_dioptres = 0.0F;  ///< Of the view's planes.
+};
+
 /// The part of a pixel that is drawn.
 struct PixelPlace {
   float side = 1.0F;          ///< Side of the square that the place stands for, pixels.
   int number = 0, count = 1;  ///< Among the places drawn one after another.
+  BehindNearest behind;       ///< Depths that are left out.
 };
 
 /// Per-frame uniforms of the programs that shade surfaces. Marker coordinates, metres.
@@ -48,6 +59,10 @@ struct FrameUniforms {
 
   /// Sets the uniforms common to all programs: eye, exposure scale and sun.
   void Set(const gl::GlProgram& program) const;
+  /// Calls `draw` for the sides of surfaces that are drawn into triangle numbers. `program`: in
+  /// use, of shaders/triangle_id.frag, with BEHIND where surfaces are left out. Requires
+  /// EnableSurfaceTests().
+  void DrawSides(const gl::GlProgram& program, const std::function<void()>& draw) const;
   /// For shaders/visible_surface.glsl.
   void SetRays(const gl::GlProgram& program) const;
   void SetFog(const gl::GlProgram& program) const;

@@ -3,6 +3,7 @@
 #include <epoxy/gl.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "compositor/passes/shadow_ratio_pass.h"
@@ -16,20 +17,19 @@ Result<ObjectPass> ObjectPass::Create(bool detailed, bool by_places) {
     if (by_places) defines.emplace_back("BY_PLACES");
     return defines;
   };
-  PLEINAIR_ASSIGN_OR_RETURN(
-      pass.id_program_, gl::GlProgram::Create({.vertex = "compositor/shaders/scene_surface.vert",
-                                               .fragment = "compositor/shaders/triangle_id.frag",
-                                               .defines = {"OBJECT"}}));
-  PLEINAIR_ASSIGN_OR_RETURN(
-      pass.textured_id_program_,
-      gl::GlProgram::Create({.vertex = "compositor/shaders/scene_surface.vert",
-                             .fragment = "compositor/shaders/triangle_id.frag",
-                             .defines = with_details({"OBJECT", "TEXTURED"})}));
-  PLEINAIR_ASSIGN_OR_RETURN(
-      pass.alpha_id_program_,
-      gl::GlProgram::Create({.vertex = "compositor/shaders/scene_surface.vert",
-                             .fragment = "compositor/shaders/triangle_id.frag",
-                             .defines = with_details({"OBJECT", "TEXTURED", "ALPHA"})}));
+  for (const bool behind : {false, true}) {
+    const auto create = [&](std::vector<std::string> defines) {
+      defines.emplace_back("OBJECT");
+      if (behind) defines.emplace_back("BEHIND");
+      return gl::GlProgram::Create({.vertex = "compositor/shaders/scene_surface.vert",
+                                    .fragment = "compositor/shaders/triangle_id.frag",
+                                    .defines = std::move(defines)});
+    };
+    IdPrograms& ids = behind ? pass.behind_ids_ : pass.ids_;
+    PLEINAIR_ASSIGN_OR_RETURN(ids.plain, create({}));
+    PLEINAIR_ASSIGN_OR_RETURN(ids.textured, create(with_details({"TEXTURED"})));
+    PLEINAIR_ASSIGN_OR_RETURN(ids.alpha, create(with_details({"TEXTURED", "ALPHA"})));
+  }
   PLEINAIR_ASSIGN_OR_RETURN(
       pass.sort_program_,
       gl::GlProgram::Create({.vertex = "compositor/shaders/screen_triangle.vert",
@@ -41,19 +41,19 @@ Result<ObjectPass> ObjectPass::Create(bool detailed, bool by_places) {
 void ObjectPass::DrawSurfaces(const RenderTargets& targets, const SceneSurfaces& surfaces,
                               const FrameUniforms& frame, const PixelRect& within) const {
   const bool textured = surfaces.materials().HasTextures();
-  const gl::GlProgram& id_program = surfaces.materials().HasAlpha() ? alpha_id_program_
-                                    : textured                      ? textured_id_program_
-                                                                    : id_program_;
+  const IdPrograms& ids = frame.place.behind.dioptres == nullptr ? ids_ : behind_ids_;
+  const gl::GlProgram& id_program = surfaces.materials().HasAlpha() ? ids.alpha
+                                    : textured                      ? ids.textured
+                                                                    : ids.plain;
   targets.BeginObjectIds(textured);
   glEnable(GL_SCISSOR_TEST);
   glScissor(within.x, within.y, within.width, within.height);
   id_program.Use();
-  id_program.Set("u_clip_from_marker", frame.clip_from_marker);
   id_program.Set("u_samples", targets.samples());
   id_program.Set("u_place_side", frame.place.side);
   id_program.Set("u_place", frame.place.number);
   id_program.Set("u_places", frame.place.count);
-  surfaces.DrawObjects(id_program);
+  frame.DrawSides(id_program, [&] { surfaces.DrawObjects(id_program); });
   glDisable(GL_SCISSOR_TEST);
 }
 

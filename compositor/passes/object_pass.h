@@ -43,7 +43,12 @@ class ObjectPass {
             std::span<const PixelRect> within) const;
 
  private:
-  gl::GlProgram id_program_, textured_id_program_, alpha_id_program_, sort_program_;
+  struct IdPrograms {
+    gl::GlProgram plain, textured, alpha;
+  };
+
+  IdPrograms ids_, behind_ids_;  // The latter for PixelPlace::behind.
+  gl::GlProgram sort_program_;
   gl::GlVertexArray no_attributes_;
 };
 

@@ -10,6 +10,11 @@ Result<ShadowRatioPass> ShadowRatioPass::Create(bool blended) {
       pass.id_program_, gl::GlProgram::Create({.vertex = "compositor/shaders/scene_surface.vert",
                                                .fragment = "compositor/shaders/triangle_id.frag"}));
   PLEINAIR_ASSIGN_OR_RETURN(
+      pass.behind_id_program_,
+      gl::GlProgram::Create({.vertex = "compositor/shaders/scene_surface.vert",
+                             .fragment = "compositor/shaders/triangle_id.frag",
+                             .defines = {"BEHIND"}}));
+  PLEINAIR_ASSIGN_OR_RETURN(
       pass.sort_program_,
       gl::GlProgram::Create({.vertex = "compositor/shaders/screen_triangle.vert",
                              .fragment = "compositor/shaders/affected_pixels.frag"}));
@@ -29,9 +34,10 @@ void ShadowRatioPass::DrawSurfaces(const RenderTargets& targets, const SceneSurf
   targets.BeginSurfaces();
   glEnable(GL_SCISSOR_TEST);
   glScissor(within.x, within.y, within.width, within.height);
-  id_program_.Use();
-  id_program_.Set("u_clip_from_marker", frame.clip_from_marker);
-  surfaces.DrawPhantoms(id_program_);
+  const gl::GlProgram& program =
+      frame.place.behind.dioptres == nullptr ? id_program_ : behind_id_program_;
+  program.Use();
+  frame.DrawSides(program, [&] { surfaces.DrawPhantoms(program); });
   glDisable(GL_SCISSOR_TEST);
 }
 

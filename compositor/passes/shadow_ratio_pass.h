@@ -64,7 +64,7 @@ class ShadowRatioPass {
              AffectedTriangles::Change change, bool needs_airlight,
              std::span<const PixelRect> within) const;
 
-  gl::GlProgram id_program_, sort_program_;
+  gl::GlProgram id_program_, behind_id_program_, sort_program_;
   gl::GlProgram linear_program_, linear_program_with_airlight_;
   gl::GlVertexArray no_attributes_;
 };

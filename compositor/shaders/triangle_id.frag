@@ -5,7 +5,7 @@
 // OBJECT: the triangle belongs to a virtual object. TEXTURED: also writes the textures' base color,
 // roughness and metallic. DETAILED: with the vertices' colors; also writes bumps and emission.
 // ALPHA: writes only the samples that alpha covers. BY_PLACES: a part of each pixel is drawn, with
-// textures as sharp.
+// textures as sharp. BEHIND: nearer surfaces than PixelPlace::behind are left out.
 
 #include "compositor/shaders/visibility_buffer_layout.glsl"
 
@@ -13,6 +13,12 @@ uniform int u_first_id;
 uniform int u_step;  // 1; 0 if a whole draw has one number.
 
 layout(location = 0) out uint out_id;
+
+#ifdef BEHIND
+#include "compositor/shaders/dioptres.glsl"
+
+layout(binding = 23) uniform sampler2D u_behind;  // 1/z, 1/m.
+#endif
 
 #ifdef TEXTURED
 #include "compositor/shaders/texel_code.glsl"
@@ -153,5 +159,11 @@ void main() {
   if (covered == 0) discard;  // The mask has no effect where the pixel's center alone is drawn.
   gl_SampleMask[0] = covered;
 #endif
+#endif
+#ifdef BEHIND
+  float nearest = texelFetch(u_behind, ivec2(gl_FragCoord.xy), 0).r;
+  if (DioptresOf(gl_FragCoord.z) > nearest) discard;
+  // The two triangles of an open surface have the same depth. The side that faces the camera counts.
+  gl_FragDepth = gl_FragCoord.z + (gl_FrontFacing ? 0.0 : 1e-6);
 #endif
 }

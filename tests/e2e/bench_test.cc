@@ -135,7 +135,7 @@ TEST(BenchDefocus, ComparesMethodsWithTheTruth) {
   const auto edge = [&](const char* method) {
     return rows.at(method).at("edge_rmse").get<double>();
   };
-  EXPECT_LT(edge("layered"), 0.012);
+  EXPECT_LT(edge("layered"), 0.010);
   EXPECT_LT(edge("layered"), edge("gaussian"));
   EXPECT_LT(2.0 * edge("layered"), edge("gather"));
   for (const char* key :

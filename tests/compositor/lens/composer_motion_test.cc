@@ -72,7 +72,7 @@ TEST(ComposerMotion, CoversObjectsSoftlyByMovingRealOccluders) {
   const RgbImage image =
       ComposeThrough(boards, frame, kSmall, {}, Moving(kMoved_m), nullptr, &figures);
   EXPECT_NEAR(figures.longest_streak_px, 9.0, 0.1);
-  EXPECT_EQ(figures.views, 18);
+  EXPECT_EQ(figures.views, 9);
   double squares = 0.0;
   int worst = 0;
   for (int y = 0; y < kSmall.height; ++y) {

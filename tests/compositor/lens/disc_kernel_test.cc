@@ -131,5 +131,13 @@ TEST(LayerOf, GrowsFromNearToFar) {
   EXPECT_LT(last, kLensLayers);
 }
 
+TEST(LayerOf, BeginsAtItsFirstCircle) {
+  for (int layer = 1; layer < kLensLayers; ++layer) {
+    const double first = FirstCircle_px(layer);
+    EXPECT_EQ(LayerOf(first + 1e-6), layer) << first;
+    EXPECT_EQ(LayerOf(first - 1e-6), layer - 1) << first;
+  }
+}
+
 }  // namespace
 }  // namespace pleinair::compositor
