@@ -20,6 +20,7 @@ const std::map<std::string, Names, std::less<>>& AllowedModules() {
       {"files", {"base"}},
       {"sky", {"base"}},
       {"scene", {"base", "files", "sky"}},
+      {"content", {"base", "files", "scene"}},
       {"devices", {"base", "files", "scene"}},
       {"tracker", {"base", "files"}},
       {"gl", {"base"}},
@@ -104,6 +105,11 @@ const std::vector<Library>& Libraries() {
        {"embree"},
        {"base", "files", "sky", "scene", "devices", "tracker", "accuracy", "gl", "session",
         "export"},
+       true},
+      {"PROJ or GDAL",
+       {"proj.h", "geodesic.h", "gdal", "ogr_", "cpl_"},
+       {"base", "files", "sky", "scene", "devices", "tracker", "accuracy", "gl", "shadows",
+        "compositor", "session", "export", "app"},
        true},
   };
   return kLibraries;
