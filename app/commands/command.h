@@ -43,6 +43,7 @@ void AddAccuracyCommand(CLI::App& app, CommandResult& result);
 void AddReportCommand(CLI::App& app, CommandResult& result);
 void AddDevicesCommand(CLI::App& app, CommandResult& result);
 void AddBenchCommand(CLI::App& app, CommandResult& result);
+void AddPlaceCommand(CLI::App& app, CommandResult& result);
 void AddRecoverCommand(CLI::App& app, CommandResult& result);
 void AddDoctorCommand(CLI::App& app, CommandResult& result);
 

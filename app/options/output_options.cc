@@ -19,10 +19,10 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Every option of any command that names what is written.
-constexpr std::array<std::string_view, 16> kOutputOptions = {
-    "--coverage",    "--description", "--detections", "--euroc",   "--kalibr", "--opencv",
-    "--opencv-json", "--output",      "--path",       "--preview", "--record", "--report",
-    "--ros",         "--screenshot",  "--spectra",    "OUT"};
+constexpr std::array<std::string_view, 17> kOutputOptions = {
+    "--coverage",    "--description", "--detections", "--euroc",   "--kalibr",  "--opencv",
+    "--opencv-json", "--output",      "--path",       "--plan",    "--preview", "--record",
+    "--report",      "--ros",         "--screenshot", "--spectra", "OUT"};
 /// Folders of files that pleinair names by the time of day.
 constexpr std::string_view kPictureFolder = "--pictures";
 

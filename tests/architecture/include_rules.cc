@@ -34,8 +34,8 @@ const std::map<std::string, Names, std::less<>>& AllowedModules() {
        {"base", "files", "sky", "scene", "devices", "tracker", "compositor", "session", "export"}},
       {"accuracy", {"base", "tracker"}},
       {"app",
-       {"base", "files", "sky", "scene", "devices", "tracker", "gl", "shadows", "compositor",
-        "session", "export", "accuracy"}},
+       {"base", "files", "sky", "scene", "content", "devices", "tracker", "gl", "shadows",
+        "compositor", "session", "export", "accuracy"}},
   };
   return kAllowed;
 }

@@ -1,0 +1,269 @@
+#include "content/georeference/vector_layer.h"
+
+#include <cpl_conv.h>
+#include <cpl_error.h>
+#include <cpl_vsi.h>
+#include <gdal.h>
+#include <ogr_api.h>
+#include <ogr_srs_api.h>
+#include <ogrsf_frmts.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <cstdlib>
+#include <memory>
+#include <mutex>
+#include <utility>
+
+namespace pleinair::content {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kKindsRemedy =
+    "give a GeoJSON, GeoPackage (.gpkg) or Shapefile (.shp); ogr2ogr converts others";
+constexpr std::size_t kMaxName = 200;     // Bytes, of features and layers.
+constexpr int kMaxNesting = 32;           // Of collections in collections.
+constexpr double kMaxStatedNumber = 1e9;  // As MapTransform: beyond are no metres or degrees.
+
+struct DatasetDeleter {
+  void operator()(void* dataset) const { GDALClose(dataset); }
+};
+using Dataset = std::unique_ptr<void, DatasetDeleter>;
+
+struct FeatureDeleter {
+  void operator()(void* feature) const { OGR_F_Destroy(feature); }
+};
+using Feature = std::unique_ptr<void, FeatureDeleter>;
+
+/// Only the formats that are tested: others could follow links to files and hosts.
+void RegisterFormats() {
+  static std::once_flag once;
+  std::call_once(once, [] {
+    CPLSetConfigOption("GDAL_DISABLE_READDIR_ON_OPEN", "FALSE");
+    RegisterOGRGeoJSON();
+    RegisterOGRGeoPackage();
+    RegisterOGRShape();
+  });
+}
+
+/// GDAL's messages become ours; nothing goes to standard error.
+class QuietErrors {
+ public:
+  QuietErrors() {
+    CPLPushErrorHandler(CPLQuietErrorHandler);
+    CPLErrorReset();
+  }
+  ~QuietErrors() { CPLPopErrorHandler(); }
+  QuietErrors(const QuietErrors&) = delete;
+  QuietErrors& operator=(const QuietErrors&) = delete;
+
+  /// The last message on one line, or `otherwise`.
+  static std::string Last(const std::string& otherwise) {
+    std::string message = CPLGetLastErrorMsg();
+    std::replace(message.begin(), message.end(), '\n', ' ');
+    while (!message.empty() && (message.back() == '.' || message.back() == ' ')) message.pop_back();
+    return message.empty() ? otherwise : message.substr(0, 300);
+  }
+};
+
+/// Collects the parts of geometries, up to the limits.
+class PartCollector {
+ public:
+  /// Returns false if the geometry is nested too deeply or has too many vertices.
+  bool Add(OGRGeometryH geometry, MapFeature* feature, int depth = 0) {
+    if (depth > kMaxNesting) return false;
+    const OGRwkbGeometryType type = wkbFlatten(OGR_G_GetGeometryType(geometry));
+    if (type == wkbPoint) return AddPart(geometry, PartKind::kPoint, feature);
+    if (type == wkbLineString) {
+      const bool ring = std::string_view(OGR_G_GetGeometryName(geometry)) == "LINEARRING";
+      return AddPart(geometry, ring || in_area_ ? PartKind::kRing : PartKind::kLine, feature);
+    }
+    const bool area = type == wkbPolygon || type == wkbTriangle;
+    const bool was_in_area = std::exchange(in_area_, area);
+    bool fits = true;
+    for (int i = 0; fits && i < OGR_G_GetGeometryCount(geometry); ++i) {
+      fits = Add(OGR_G_GetGeometryRef(geometry, i), feature, depth + 1);
+    }
+    in_area_ = was_in_area;
+    return fits;
+  }
+
+ private:
+  bool AddPart(OGRGeometryH geometry, PartKind kind, MapFeature* feature) {
+    const auto count = static_cast<std::size_t>(std::max(0, OGR_G_GetPointCount(geometry)));
+    if (count == 0 || OGR_G_IsEmpty(geometry)) return true;
+    vertices_ += count;
+    if (vertices_ > kMaxVertices) return false;
+    GeometryPart part{kind, std::vector<MapPoint>(count)};
+    OGR_G_GetPoints(geometry, &part.points[0].x, sizeof(MapPoint), &part.points[0].y,
+                    sizeof(MapPoint), &part.points[0].z, sizeof(MapPoint));
+    if (kind == PartKind::kRing && part.points.front() != part.points.back()) {
+      part.points.push_back(part.points.front());
+    }
+    feature->has_heights = feature->has_heights || OGR_G_Is3D(geometry);
+    feature->parts.push_back(std::move(part));
+    return true;
+  }
+
+  std::size_t vertices_ = 0;
+  bool in_area_ = false;
+};
+
+bool AllFinite(const MapFeature& feature) {
+  const auto finite = [](double value) { return std::fabs(value) <= kMaxStatedNumber; };
+  return std::all_of(feature.parts.begin(), feature.parts.end(), [&](const GeometryPart& part) {
+    return std::all_of(part.points.begin(), part.points.end(), [&](const MapPoint& p) {
+      return finite(p.x) && finite(p.y) && finite(p.z);
+    });
+  });
+}
+
+/// At most `max_length` bytes without control characters, which a terminal would obey.
+std::string PrintableName(std::string name, std::size_t max_length) {
+  if (name.size() > max_length) name.resize(max_length);
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return (c >= 0 && c < ' ') || c == 127; }, ' ');
+  return name;
+}
+
+std::string NameOfFeature(OGRFeatureH feature) {
+  const int field = OGR_F_GetFieldIndex(feature, "name");  // In any case.
+  if (field < 0 || !OGR_F_IsFieldSetAndNotNull(feature, field)) return {};
+  return PrintableName(OGR_F_GetFieldAsString(feature, field), kMaxName);
+}
+
+/// The CRS that the layer states.
+void ReadCrs(OGRLayerH layer, bool geojson, VectorLayer* out) {
+  OGRSpatialReferenceH srs = OGR_L_GetSpatialRef(layer);
+  if (!srs) return;
+  const char* name = OSRGetName(srs);
+  out->crs_name = name ? name : "unknown";
+  const char* authority = OSRGetAuthorityName(srs, nullptr);
+  const char* code = OSRGetAuthorityCode(srs, nullptr);
+  if (authority && code) {
+    out->crs = std::string(authority) + ":" + code;
+    // GDAL's choice for every GeoJSON file with heights, whether it states them or not.
+    if (geojson && out->crs == "EPSG:4979") out->crs = "EPSG:4326";
+    out->crs_name += " (" + out->crs + ")";
+    return;
+  }
+  const std::array<const char*, 2> kOptions = {"FORMAT=WKT2_2019", nullptr};
+  char* wkt = nullptr;
+  if (OSRExportToWktEx(srs, &wkt, kOptions.data()) == OGRERR_NONE && wkt) out->crs = wkt;
+  CPLFree(wkt);
+}
+
+Result<VectorLayer> ReadLayer(OGRLayerH layer, bool geojson, const std::string& where,
+                              PartCollector* collector, std::size_t* number) {
+  VectorLayer out;
+  out.name = PrintableName(OGR_L_GetName(layer), kMaxName);
+  ReadCrs(layer, geojson, &out);
+  OGR_L_ResetReading(layer);
+  CPLErrorReset();
+  while (const Feature feature{OGR_L_GetNextFeature(layer)}) {
+    MapFeature read;
+    read.number = (*number)++;
+    read.name = NameOfFeature(feature.get());
+    const std::string which = "feature " + std::to_string(read.number);
+    if (OGRGeometryH geometry = OGR_F_GetGeometryRef(feature.get())) {
+      const std::unique_ptr<void, decltype(&OGR_G_DestroyGeometry)> linear(
+          OGR_G_HasCurveGeometry(geometry, 1) ? OGR_G_GetLinearGeometry(geometry, 0.0, nullptr)
+                                              : nullptr,
+          &OGR_G_DestroyGeometry);
+      if (!collector->Add(linear ? linear.get() : geometry, &read)) {
+        return InputError(where,
+                          which + " exceeds " + std::to_string(kMaxVertices) +
+                              " vertices in all, or is nested too deeply",
+                          "simplify the geometry, or choose a layer with --layer");
+      }
+    }
+    if (!AllFinite(read)) {
+      return InputError(where,
+                        which + " has a coordinate that is no finite number of metres or degrees",
+                        "repair that feature");
+    }
+    out.features.push_back(std::move(read));
+  }
+  if (CPLGetLastErrorType() >= CE_Failure) {
+    return InputError(where, "is damaged: " + QuietErrors::Last("cannot be read"),
+                      "export the file again");
+  }
+  return out;
+}
+
+Result<std::vector<VectorLayer>> ReadDataset(const std::string& path, const std::string& where,
+                                             const std::optional<std::string>& wanted) {
+  RegisterFormats();
+  const QuietErrors quiet;
+  constexpr std::array<const char*, 4> kDrivers = {"GeoJSON", "GPKG", "ESRI Shapefile", nullptr};
+  const Dataset dataset(GDALOpenEx(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, kDrivers.data(),
+                                   nullptr, nullptr));
+  if (!dataset) {
+    const std::string message = QuietErrors::Last("");
+    return InputError(
+        where,
+        message.empty() ? "is no map of vectors that can be read" : "cannot be read: " + message,
+        kKindsRemedy);
+  }
+  const bool geojson =
+      std::string_view(GDALGetDriverShortName(GDALGetDatasetDriver(dataset.get()))) == "GeoJSON";
+  std::vector<VectorLayer> layers;
+  std::string names;
+  PartCollector collector;
+  std::size_t number = 0;
+  for (int i = 0; i < GDALDatasetGetLayerCount(dataset.get()); ++i) {
+    OGRLayerH layer = GDALDatasetGetLayer(dataset.get(), i);
+    if (!layer) continue;
+    const std::string name = OGR_L_GetName(layer);
+    names += (names.empty() ? "" : ", ") + name;
+    if (wanted ? name != *wanted : OGR_L_GetGeomType(layer) == wkbNone) continue;
+    PLEINAIR_ASSIGN_OR_RETURN(VectorLayer read,
+                              ReadLayer(layer, geojson, where, &collector, &number));
+    layers.push_back(std::move(read));
+  }
+  if (layers.empty() && wanted) {
+    return InputError(where, "has no layer \"" + wanted->substr(0, 60) + "\"",
+                      "its layers are: " + names.substr(0, 300));
+  }
+  if (layers.empty()) return InputError(where, "has no layer with geometry", kKindsRemedy);
+  return layers;
+}
+
+}  // namespace
+
+Result<std::vector<VectorLayer>> ReadVectorLayers(const fs::path& file,
+                                                  const std::optional<std::string>& layer) {
+  const std::string where = file.string();
+  std::error_code error;
+  if (!fs::is_regular_file(file, error)) {
+    return InputError(where, fs::exists(file, error) ? "is not a regular file" : "does not exist",
+                      kKindsRemedy);
+  }
+  if (fs::file_size(file, error) > kMaxVectorFileBytes) {
+    return InputError(where, "has more than 4 GiB", "cut out what lies near the marker");
+  }
+  // An absolute name is neither text nor has a prefix of another kind of source.
+  const std::string path = fs::absolute(file, error).string();
+  if (path.starts_with("/vsi")) return InputError(where, "is no file on a disk", kKindsRemedy);
+  return ReadDataset(path, where, layer);
+}
+
+Result<std::vector<VectorLayer>> ParseVectorLayers(std::string_view bytes, const std::string& name,
+                                                   const std::optional<std::string>& layer) {
+  static std::atomic<int> count{0};
+  const std::string path =
+      "/vsimem/pleinair-" + std::to_string(count++) + "/map" + fs::path(name).extension().string();
+  // GDAL only reads: the dataset is opened without the right to change it.
+  auto* data = reinterpret_cast<GByte*>(const_cast<char*>(bytes.data()));
+  VSILFILE* file = VSIFileFromMemBuffer(path.c_str(), data, bytes.size(), FALSE);
+  if (!file) return InputError(name, "is empty", kKindsRemedy);
+  VSIFCloseL(file);
+  auto layers = ReadDataset(path, name, layer);
+  VSIUnlink(path.c_str());
+  return layers;
+}
+
+}  // namespace pleinair::content
