@@ -15,6 +15,7 @@
 #include "tests/e2e/command_output.h"
 #include "tests/e2e/refusal.h"
 #include "tests/e2e/run_program.h"
+#include "tests/source_tree.h"
 
 namespace pleinair::e2e {
 namespace {
@@ -198,6 +199,24 @@ TEST(Place, ReadsShapefilesWithTheirProjection) {
   const json out = RunJson({"place", folder / "map.shp", "--at", kAt});
   EXPECT_NEAR(out.at("nearest").at("distance_m").get<double>(), 1e-3 * kMetresPerDegreeNorth, 0.01);
   EXPECT_EQ(out.at("layers").at(0).at("datum_unknown"), false);
+}
+
+// Written by the rules of the GeoPackage standard, not by GDAL.
+TEST(Place, ReadsGeoPackagesOrSaysThatTheyAreCutShort) {
+  const TemporaryFolder folder;
+  const fs::path map = folder / "lines.gpkg";
+  fs::copy_file(tests::SourceTree() / "tests/fuzz/corpus/vector/lines.gpkg", map);
+  const json out = RunJson({"place", map, "--at", kAt});
+  EXPECT_EQ(out.at("layers").at(0).at("layer"), "pipes");
+  EXPECT_THAT(out.at("layers").at(0).at("crs").get<std::string>(), HasSubstr("EPSG:4326"));
+  const json& water = out.at("features").at(0);
+  EXPECT_EQ(water.at("name"), "water");
+  EXPECT_NEAR(water.at("north_m").at(1).get<double>(), 1e-3 * kMetresPerDegreeNorth, 0.01);
+  EXPECT_NEAR(water.at("east_m").at(1).get<double>(), 1e-3 * kMetresPerDegreeEast, 0.01);
+  for (const std::uintmax_t bytes : {3000U, 700U, 100U, 0U}) {
+    fs::resize_file(map, bytes);
+    ExpectRefused(RunPleinair({"place", map, "--at", kAt}), "lines.gpkg");
+  }
 }
 
 TEST(Place, NeedsACrsForAShapefileWithoutOne) {
