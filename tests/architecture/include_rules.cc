@@ -190,7 +190,8 @@ std::vector<std::string> FindBreaches(const fs::path& file, std::string_view tex
     what.append(include.path).append(": ");
     const std::string other = ModuleOf(include.path);
     if (AllowedModules().contains(other) && other != module && !rule->second.contains(other)) {
-      breaches.push_back(what + module + " may not know " + other);
+      std::string breach = what;
+      breaches.push_back(breach.append(module).append(" may not know ").append(other));
     }
     if (module == "compositor" && other == module &&
         CompositorFloor(include.path) > CompositorFloor(file)) {
