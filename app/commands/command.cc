@@ -109,6 +109,7 @@ int RunCommandLine(int argc, const char* const* argv) {
     AddResponseCommand(app, result);
     AddLensCommand(app, result);
     AddPlaceCommand(app, result);
+    AddTerrainCommand(app, result);
     AddSunCommand(app, result);
     AddSkyCommand(app, result);
     AddAccuracyCommand(app, result);

@@ -1,9 +1,8 @@
-#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -11,14 +10,12 @@
 #include "app/commands/command.h"
 #include "app/options/number_range.h"
 #include "app/options/option_use.h"
+#include "app/place/marker_place.h"
 #include "app/place/placement.h"
 #include "app/place/placement_plan.h"
 #include "base/atomic_file.h"
 #include "content/georeference/vector_layer.h"
 #include "export/images/image_writer.h"
-#include "files/csv.h"
-#include "scene/marker_heading.h"
-#include "scene/scene_description.h"
 
 namespace pleinair::app {
 namespace {
@@ -41,48 +38,12 @@ constexpr int kPlanWidth_px = 1000;
 
 struct PlaceArguments {
   std::string file;
-  std::string at, scene, height_reference, crs, layer;
+  MarkerPlaceArguments marker;
+  std::string crs, layer;
   double radius_m = kDefaultRadius_m;
   std::string plan, output;
   bool json = false;
 };
-
-/// Parses "LAT,LON[,HEIGHT]".
-Result<content::Place> ParsePlace(const std::string& text) {
-  struct Field {
-    const char* name;
-    double lowest, highest;
-  };
-  constexpr Field kFields[3] = {
-      {"latitude", -90.0, 90.0}, {"longitude", -180.0, 360.0}, {"height", -11'000.0, 100'000.0}};
-  double values[3] = {0.0, 0.0, 0.0};
-  std::string_view rest = text;
-  std::size_t count = 0;
-  for (bool more = true; more && count < 3; ++count) {
-    const std::size_t comma = rest.find(',');
-    const auto value = files::ParseNumber(files::Trimmed(rest.substr(0, comma)));
-    const Field& field = kFields[count];
-    if (!value || *value < field.lowest || *value > field.highest) {
-      return InputError("--at",
-                        "\"" + text.substr(0, 60) + "\" has no " + field.name + " from " +
-                            CLI::detail::to_string(field.lowest) + " to " +
-                            CLI::detail::to_string(field.highest),
-                        "write latitude, longitude and height, for example 50.0875,14.4213,220");
-    }
-    values[count] = *value;
-    more = comma != std::string_view::npos;
-    rest = more ? rest.substr(comma + 1) : std::string_view();
-  }
-  if (count < 2 || !rest.empty()) {
-    return InputError("--at", "\"" + text.substr(0, 60) + "\" is not a place",
-                      "write latitude, longitude and height, for example 50.0875,14.4213,220");
-  }
-  content::Place place;
-  place.latitude_deg = values[0];
-  place.longitude_deg = std::remainder(values[1], 360.0);
-  place.height_m = values[2];
-  return place;
-}
 
 Result<void> WritePlan(const Placement& placement, const std::string& plan) {
   const fs::path file = plan;
@@ -110,36 +71,15 @@ Result<void> CheckEnding(const std::string& file, std::initializer_list<const ch
   return InputError(file, "is no " + kinds + " by its ending", "name a file that ends in " + kinds);
 }
 
-/// The place, and the heading if a scene is given.
-Result<void> FillPlace(const PlaceArguments& arguments, Placement* placement) {
-  if (arguments.at.empty() && arguments.scene.empty()) {
-    return InputError("", "pleinair place needs the place of the marker",
-                      "give --at LAT,LON,HEIGHT or --scene FILE; see pleinair place --help");
-  }
-  if (!arguments.scene.empty()) {
-    PLEINAIR_ASSIGN_OR_RETURN(const scene::SceneDescription scene,
-                              scene::ReadSceneDescription(arguments.scene));
-    placement->place.latitude_deg = scene.place_time.latitude_deg;
-    placement->place.longitude_deg = scene.place_time.longitude_deg;
-    placement->place.height_m = scene.place_time.height_m;
-    placement->marker_from_world = scene::MarkerFromWorld(scene.marker);
-  }
-  if (!arguments.at.empty()) {
-    PLEINAIR_ASSIGN_OR_RETURN(placement->place, ParsePlace(arguments.at));
-  }
-  if (arguments.height_reference == "ellipsoid") {
-    placement->place.reference = content::HeightReference::kEllipsoid;
-  }
-  return {};
-}
-
 Result<void> RunPlace(const PlaceArguments& arguments) {
   PLEINAIR_RETURN_IF_ERROR(CheckEnding(arguments.plan, {".svg", ".png"}, ".svg or .png"));
   PLEINAIR_RETURN_IF_ERROR(CheckEnding(arguments.output, {".csv"}, ".csv"));
   Placement placement;
   placement.file = arguments.file;
   placement.radius_m = arguments.radius_m;
-  PLEINAIR_RETURN_IF_ERROR(FillPlace(arguments, &placement));
+  PLEINAIR_ASSIGN_OR_RETURN(const MarkerPlace marker, ReadMarkerPlace(arguments.marker, "place"));
+  placement.place = marker.place;
+  placement.marker_from_world = marker.marker_from_world;
   std::optional<std::string> layer;
   if (!arguments.layer.empty()) layer = arguments.layer;
   PLEINAIR_ASSIGN_OR_RETURN(const std::vector<content::VectorLayer> layers,
@@ -172,19 +112,7 @@ void AddPlaceCommand(CLI::App& app, CommandResult& result) {
       app.add_subcommand("place", "Where the features of a map stand around the marker");
   command->footer(kPlaceExamples);
   command->add_option("FILE", arguments->file, "GeoJSON, GeoPackage or Shapefile")->required();
-  command
-      ->add_option("--at", arguments->at,
-                   "Place of the marker: degrees, metres above sea level (default height: 0)")
-      ->type_name("LAT,LON[,HEIGHT]");
-  command
-      ->add_option("--scene", arguments->scene,
-                   "Scene with place and heading: also marker coordinates")
-      ->type_name("F");
-  command
-      ->add_option("--height-reference", arguments->height_reference,
-                   "What the height of the place is measured from")
-      ->check(CLI::IsMember({"sea", "ellipsoid"}))
-      ->default_str("sea");
+  AddMarkerPlaceOptions(*command, &arguments->marker);
   command
       ->add_option("--crs", arguments->crs,
                    "Coordinate reference system of the file: EPSG:N, WKT or PROJ string")

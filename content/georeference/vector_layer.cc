@@ -1,9 +1,7 @@
 #include "content/georeference/vector_layer.h"
 
 #include <cpl_conv.h>
-#include <cpl_error.h>
 #include <cpl_vsi.h>
-#include <gdal.h>
 #include <ogr_api.h>
 #include <ogr_srs_api.h>
 #include <ogrsf_frmts.h>
@@ -17,6 +15,8 @@
 #include <mutex>
 #include <utility>
 
+#include "content/georeference/gdal_handles.h"
+
 namespace pleinair::content {
 namespace {
 
@@ -27,11 +27,6 @@ constexpr const char* kKindsRemedy =
 constexpr std::size_t kMaxName = 200;     // Bytes, of features and layers.
 constexpr int kMaxNesting = 32;           // Of collections in collections.
 constexpr double kMaxStatedNumber = 1e9;  // As MapTransform: beyond are no metres or degrees.
-
-struct DatasetDeleter {
-  void operator()(void* dataset) const { GDALClose(dataset); }
-};
-using Dataset = std::unique_ptr<void, DatasetDeleter>;
 
 struct FeatureDeleter {
   void operator()(void* feature) const { OGR_F_Destroy(feature); }
@@ -48,26 +43,6 @@ void RegisterFormats() {
     RegisterOGRShape();
   });
 }
-
-/// GDAL's messages become ours; nothing goes to standard error.
-class QuietErrors {
- public:
-  QuietErrors() {
-    CPLPushErrorHandler(CPLQuietErrorHandler);
-    CPLErrorReset();
-  }
-  ~QuietErrors() { CPLPopErrorHandler(); }
-  QuietErrors(const QuietErrors&) = delete;
-  QuietErrors& operator=(const QuietErrors&) = delete;
-
-  /// The last message on one line, or `otherwise`.
-  static std::string Last(const std::string& otherwise) {
-    std::string message = CPLGetLastErrorMsg();
-    std::replace(message.begin(), message.end(), '\n', ' ');
-    while (!message.empty() && (message.back() == '.' || message.back() == ' ')) message.pop_back();
-    return message.empty() ? otherwise : message.substr(0, 300);
-  }
-};
 
 /// Collects the parts of geometries, up to the limits.
 class PartCollector {

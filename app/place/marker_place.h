@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "base/error.h"
+#include "base/vector.h"
+#include "content/georeference/local_frame.h"
+
+namespace pleinair::app {
+
+/// Options that state where the marker is, as the user typed them.
+struct MarkerPlaceArguments {
+  std::string at, scene, height_reference;
+};
+
+/// Where the marker is.
+struct MarkerPlace {
+  content::Place place;
+  /// Rotation to marker coordinates, of the scene; unset: no scene is given.
+  std::optional<Mat3> marker_from_world;
+};
+
+/// Adds --at, --scene and --height-reference.
+void AddMarkerPlaceOptions(CLI::App& command, MarkerPlaceArguments* arguments);
+
+/// The place, and the heading if a scene is given. `command`: its name. Errors (input): no place,
+/// --at that is none, those of ReadSceneDescription().
+Result<MarkerPlace> ReadMarkerPlace(const MarkerPlaceArguments& arguments,
+                                    const std::string& command);
+
+}  // namespace pleinair::app
