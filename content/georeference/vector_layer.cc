@@ -10,6 +10,7 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <memory>
 #include <mutex>
@@ -42,6 +43,44 @@ void RegisterFormats() {
     RegisterOGRGeoPackage();
     RegisterOGRShape();
   });
+}
+
+/// While it lives, this thread opens a Shapefile without its index (.shx).
+class RestoredIndex {
+ public:
+  RestoredIndex() { CPLSetThreadLocalConfigOption(kOption, "YES"); }
+  ~RestoredIndex() { CPLSetThreadLocalConfigOption(kOption, nullptr); }
+  RestoredIndex(const RestoredIndex&) = delete;
+  RestoredIndex& operator=(const RestoredIndex&) = delete;
+
+ private:
+  static constexpr const char* kOption = "SHAPE_RESTORE_SHX";
+};
+
+/// Returns whether an SQLite file, such as a GeoPackage, has fewer bytes than its header states.
+/// SQLite reads such a file as far as it goes. Source: "Database File Format", sqlite.org, 1.3: the
+/// size of a page at byte 16, the number of pages at byte 28. That number counts if the two
+/// counters at bytes 24 and 92 are equal.
+bool IsCutShort(const std::string& path) {
+  VSIStatBufL status;
+  VSILFILE* const file = VSIFOpenL(path.c_str(), "rb");
+  if (file == nullptr) return false;
+  std::array<unsigned char, 100> header{};
+  const std::size_t count = VSIFReadL(header.data(), 1, header.size(), file);
+  VSIFCloseL(file);
+  constexpr std::string_view kMagic("SQLite format 3", 16);  // With its closing zero.
+  if (count < header.size() || !std::equal(kMagic.begin(), kMagic.end(), header.begin()) ||
+      VSIStatL(path.c_str(), &status) != 0) {
+    return false;
+  }
+  const auto number = [&](std::size_t at, std::size_t bytes) {
+    std::uint64_t value = 0;
+    for (std::size_t i = 0; i < bytes; ++i) value = 256 * value + header[at + i];
+    return value;
+  };
+  const std::uint64_t page_bytes = number(16, 2) == 1 ? 65536 : number(16, 2);
+  return number(24, 4) == number(92, 4) &&
+         static_cast<std::uint64_t>(status.st_size) < page_bytes * number(28, 4);
 }
 
 /// Collects the parts of geometries, up to the limits.
@@ -173,6 +212,10 @@ Result<std::vector<VectorLayer>> ReadDataset(const std::string& path, const std:
                                              const std::optional<std::string>& wanted) {
   RegisterFormats();
   const QuietErrors quiet;
+  if (IsCutShort(path)) {
+    return InputError(where, "is damaged: it has fewer bytes than its header states",
+                      "copy or export the file again");
+  }
   constexpr std::array<const char*, 4> kDrivers = {"GeoJSON", "GPKG", "ESRI Shapefile", nullptr};
   const Dataset dataset(GDALOpenEx(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, kDrivers.data(),
                                    nullptr, nullptr));
@@ -229,15 +272,17 @@ Result<std::vector<VectorLayer>> ReadVectorLayers(const fs::path& file,
 Result<std::vector<VectorLayer>> ParseVectorLayers(std::string_view bytes, const std::string& name,
                                                    const std::optional<std::string>& layer) {
   static std::atomic<int> count{0};
-  const std::string path =
-      "/vsimem/pleinair-" + std::to_string(count++) + "/map" + fs::path(name).extension().string();
+  const std::string folder = "/vsimem/pleinair-" + std::to_string(count++);
+  const std::string path = folder + "/map" + fs::path(name).extension().string();
   // GDAL only reads: the dataset is opened without the right to change it.
   auto* data = reinterpret_cast<GByte*>(const_cast<char*>(bytes.data()));
   VSILFILE* file = VSIFileFromMemBuffer(path.c_str(), data, bytes.size(), FALSE);
   if (!file) return InputError(name, "is empty", kKindsRemedy);
   VSIFCloseL(file);
+  // GDAL may write the index of a Shapefile into that folder, never to a disk.
+  const RestoredIndex restored;
   auto layers = ReadDataset(path, name, layer);
-  VSIUnlink(path.c_str());
+  VSIRmdirRecursive(folder.c_str());
   return layers;
 }
 

@@ -49,7 +49,7 @@ Result<std::vector<VectorLayer>> ReadVectorLayers(const std::filesystem::path& f
                                                   const std::optional<std::string>& layer = {});
 
 /// The same from memory. `name` is that of the file in errors; its extension counts as that of a
-/// file. A Shapefile then has its .shp alone.
+/// file. A Shapefile has its .shp alone; the index is restored from it, in memory.
 Result<std::vector<VectorLayer>> ParseVectorLayers(std::string_view bytes, const std::string& name,
                                                    const std::optional<std::string>& layer = {});
 

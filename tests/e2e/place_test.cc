@@ -205,7 +205,7 @@ TEST(Place, ReadsShapefilesWithTheirProjection) {
 TEST(Place, ReadsGeoPackagesOrSaysThatTheyAreCutShort) {
   const TemporaryFolder folder;
   const fs::path map = folder / "lines.gpkg";
-  fs::copy_file(tests::SourceTree() / "tests/fuzz/corpus/vector/lines.gpkg", map);
+  fs::copy_file(tests::SourceTree() / "tests/fuzz/corpus/map/lines.gpkg", map);
   const json out = RunJson({"place", map, "--at", kAt});
   EXPECT_EQ(out.at("layers").at(0).at("layer"), "pipes");
   EXPECT_THAT(out.at("layers").at(0).at("crs").get<std::string>(), HasSubstr("EPSG:4326"));
