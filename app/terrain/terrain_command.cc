@@ -16,6 +16,7 @@
 #include "base/atomic_file.h"
 #include "content/terrain/elevation_mesh.h"
 #include "files/csv.h"
+#include "scene/described_surface.h"
 
 namespace pleinair::app {
 namespace {
@@ -53,9 +54,12 @@ Result<void> ParseHeight(const std::string& text, content::TerrainOptions* optio
   return {};
 }
 
-/// A Wavefront OBJ in marker coordinates, metres.
-std::string TerrainObj(const content::ElevationMesh& mesh, const Mat3& marker_from_world) {
-  std::string obj = "# Terrain in marker coordinates, metres.\no terrain\n";
+/// A Wavefront OBJ in marker coordinates, metres. `material`: its MTL file.
+std::string TerrainObj(const content::ElevationMesh& mesh, const Mat3& marker_from_world,
+                       const fs::path& material) {
+  std::string obj =
+      fmt::format("# Terrain in marker coordinates, metres.\nmtllib {}\nusemtl ground\no terrain\n",
+                  material.filename().string());
   obj.reserve(obj.size() + 40 * mesh.vertices.size() + 30 * mesh.triangles.size());
   auto end = std::back_inserter(obj);
   for (const Point<World>& vertex : mesh.vertices) {
@@ -66,6 +70,17 @@ std::string TerrainObj(const content::ElevationMesh& mesh, const Mat3& marker_fr
     end = fmt::format_to(end, "f {} {} {}\n", a + 1, b + 1, c + 1);
   }
   return obj;
+}
+
+/// The ground's color, unless the user has one already.
+Result<void> WriteMaterial(const fs::path& material) {
+  std::error_code error;
+  if (fs::exists(material, error)) return {};
+  const LinearRgb& color = scene::kUsualReflectance;
+  return WriteFileAtomically(
+      material, fmt::format("newmtl ground\n# Linear reflectance: dry ground, light stone\n"
+                            "Kd {} {} {}\nillum 1\n",
+                            color.r, color.g, color.b));
 }
 
 nlohmann::ordered_json TerrainJson(const TerrainArguments& arguments,
@@ -121,8 +136,10 @@ Result<void> RunTerrain(TerrainArguments arguments) {
       const content::ElevationMesh mesh,
       content::TriangulateRaster(arguments.file, marker.place, arguments.options));
   WarnOfTerrain(arguments, mesh);
+  const fs::path material = fs::path(arguments.output).replace_extension(".mtl");
+  PLEINAIR_RETURN_IF_ERROR(WriteMaterial(material));
   PLEINAIR_RETURN_IF_ERROR(WriteFileAtomically(
-      arguments.output, TerrainObj(mesh, marker.marker_from_world.value_or(Mat3{}))));
+      arguments.output, TerrainObj(mesh, marker.marker_from_world.value_or(Mat3{}), material)));
   if (arguments.json) {
     std::cout << TerrainJson(arguments, mesh).dump() << '\n';
   } else {

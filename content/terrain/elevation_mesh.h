@@ -28,8 +28,8 @@ struct TerrainOptions {
   double raised_by_m = 0.0;  ///< Added to all heights.
 };
 
-/// The surface of an elevation raster around the marker, as triangles in the tangent frame of the
-/// place: east, north, up from the marker's origin, metres. Seen from above, corners are
+/// The surface of an elevation raster around the marker, as triangles. They lie in the tangent frame
+/// of the place: east, north, up from the marker's origin, metres. Seen from above, corners are
 /// counter-clockwise. Cells without data, and their borders, carry no triangles.
 struct ElevationMesh {
   std::vector<Point<World>> vertices;
@@ -37,7 +37,7 @@ struct ElevationMesh {
   double shift_m = 0.0;            ///< Added to the raster's heights.
   double remaining_error_m = 0.0;  ///< Bound on the error of the triangulation; see RightTriangles.
   double cell_m = 0.0;             ///< Largest distance between neighbouring cells at the marker.
-  std::size_t cells = 0;           ///< Of the raster, with data, within the radius.
+  std::size_t cells = 0;           ///< The raster's, with data, within the radius.
   TransformFacts facts;
   std::string crs_name;
 };

@@ -21,8 +21,8 @@ namespace {
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-/// A slope in UTM 33N that rises by 0.1 to the east, 100 cells of 2 m around the marker's place at
-/// 50.0875 N, 14.4213 E (458601.7, 5548519.8 by GeographicLib). Without a CRS file.
+/// A slope in UTM 33N that rises by 0.1 to the east, 100 cells of 2 m around the marker's place.
+/// That is 50.0875 N, 14.4213 E (458601.7, 5548519.8 by GeographicLib). Without a CRS file.
 std::string Slope() {
   std::ostringstream grid;
   grid << "ncols 100\nnrows 100\nxllcorner 458501.7\nyllcorner 5548419.8\ncellsize 2\n"
@@ -60,6 +60,7 @@ TEST(Terrain, IsAPhantomInMarkerCoordinates) {
   EXPECT_LE(out.at("largest_error_m").get<double>(), 0.05);
   const std::vector<Vec3> vertices = VerticesOf(folder / "terrain.obj");
   ASSERT_EQ(vertices.size(), out.at("vertices").get<std::size_t>());
+  EXPECT_THAT(ReadFile(folder / "terrain.mtl"), HasSubstr("Kd 0.35 0.33 0.3\n"));
   // The marker faces east: y. The slope rises ahead, and passes through the origin.
   double farthest_m = 0.0;
   for (const Vec3& at : vertices) {
@@ -68,6 +69,16 @@ TEST(Terrain, IsAPhantomInMarkerCoordinates) {
   }
   EXPECT_GT(farthest_m, 55.0);
   EXPECT_LE(farthest_m, 60.0);
+}
+
+TEST(Terrain, KeepsTheColorThatTheUserGaveIt) {
+  const TemporaryFolder folder;
+  WriteFile(folder / "dem.asc", Slope());
+  WriteFile(folder / "terrain.mtl", "newmtl ground\nKd 0.1 0.2 0.05\n");
+  RunJson({"terrain", folder / "dem.asc", "--at", "50.0875,14.4213,220", "--crs", "EPSG:32633",
+           "--radius", "20", "-o", folder / "terrain.obj"});
+  EXPECT_THAT(ReadFile(folder / "terrain.mtl"), HasSubstr("Kd 0.1 0.2 0.05"));
+  EXPECT_THAT(ReadFile(folder / "terrain.obj"), HasSubstr("mtllib terrain.mtl\nusemtl ground\n"));
 }
 
 TEST(Terrain, RefusesWhatIsFarUnknownOrNoHeight) {

@@ -45,7 +45,7 @@ struct PublishedPoint {
   const char* geographic;
   MapPoint grid;
   double latitude_deg, longitude_deg;
-  double tolerance_m;  ///< Of the last published digits.
+  double tolerance_m;  ///< That of the last published digits.
 };
 
 const std::array kPublished = {

@@ -24,11 +24,11 @@ using ::testing::HasSubstr;
 const Place kPlace{50.0875, 14.4213, 220.0, HeightReference::kSeaLevel};
 constexpr int kNoDataCode = -9999;
 
-/// Of a cell by its centre, in the CRS.
+/// The height of a cell by its centre, in the CRS.
 using Field = std::function<double(double east_m, double north_m)>;
 
 struct Grid {
-  double west_m, south_m;  // Of the corner of the first cell of the last row.
+  double west_m, south_m;  // The outer corner of the first cell of the last row.
   double cell_m;
   int columns, rows;
 };
@@ -103,7 +103,7 @@ std::string GeoTiff(const Grid& grid, const Field& field, int epsg, bool is_poin
   return std::string("II\x2a\0\x08\0\0\0", 8) + entries + std::string(4, '\0') + beside + cells;
 }
 
-/// Of the marker, in UTM 33N.
+/// A place in UTM 33N.
 struct Utm {
   double east_m = 0.0, north_m = 0.0;
 };
