@@ -68,7 +68,7 @@ bool IsCutShort(const std::string& path) {
   std::array<unsigned char, 100> header{};
   const std::size_t count = VSIFReadL(header.data(), 1, header.size(), file);
   VSIFCloseL(file);
-  constexpr std::string_view kMagic("SQLite format 3", 16);  // With its closing zero.
+  constexpr std::string_view kMagic("SQLite format 3\0", 16);
   if (count < header.size() || !std::equal(kMagic.begin(), kMagic.end(), header.begin()) ||
       VSIStatL(path.c_str(), &status) != 0) {
     return false;
