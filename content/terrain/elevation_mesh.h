@@ -28,9 +28,9 @@ struct TerrainOptions {
   double raised_by_m = 0.0;  ///< Added to all heights.
 };
 
-/// The surface of an elevation raster around the marker, as triangles. They lie in the tangent frame
-/// of the place: east, north, up from the marker's origin, metres. Seen from above, corners are
-/// counter-clockwise. Cells without data, and their borders, carry no triangles.
+/// The surface of an elevation raster around the marker, as triangles. They lie in the tangent
+/// frame of the place: east, north, up from the marker's origin, metres. Seen from above, corners
+/// are counter-clockwise. Cells without data, and their borders, carry no triangles.
 struct ElevationMesh {
   std::vector<Point<World>> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;

@@ -24,8 +24,9 @@ using GridTriangle = std::array<GridCorner, 3>;
 /// A bound on the error of a triangle is the height of the middle over the longest side, plus the
 /// larger bound of its halves. The surface is within that bound of the halves, and these are within
 /// that height of the triangle. Such nested bounds are those of P. Lindstrom, V. Pascucci:
-/// Visualization of large terrains made easy. IEEE Visualization 2001. The surface is bilinear within a cell. A cell with the
-/// twist t = z00 + z11 − z10 − z01 differs from its two halves by |t| / 4 at most.
+/// Visualization of large terrains made easy. IEEE Visualization 2001. The surface is bilinear
+/// within a cell. A cell with the twist t = z00 + z11 − z10 − z01 differs from its two halves by
+/// |t| / 4 at most.
 ///
 /// Cells with a corner that is not a number are holes.
 class RightTriangles {
