@@ -133,7 +133,7 @@ TEST(VectorLayer, RefusesCollectionsThatAreNestedTooDeeply) {
   const TemporaryFolder folder;
   std::string text = R"({"type":"Point","coordinates":[14,50]})";
   for (int i = 0; i < 60; ++i) {
-    text = R"({"type":"GeometryCollection","geometries":[)" + text + "]}";
+    text.insert(0, R"({"type":"GeometryCollection","geometries":[)").append("]}");
   }
   EXPECT_THAT(MessageOf(ReadVectorLayers(folder.Write("deep.geojson", text))),
               AnyOf(HasSubstr("nested"), HasSubstr("cannot be read"), HasSubstr("damaged")));
