@@ -263,22 +263,16 @@ Result<void> GlComposer::SortSurfaces() {
 
 void GlComposer::DrawScene(const SurfacePrograms& programs, const FrameUniforms& frame,
                            const AffectedTiles& tiles) {
-  // What lies behind the nearest surfaces is shown through a lens alone, whose edges are soft.
-  const bool has_coverage = frame.place.behind.dioptres == nullptr;
-  if (has_coverage) {
-    canvas_.coverage.Measure(surfaces_, frame, canvas_.targets, tiles.fine.Rectangles());
-  }
-  const CoveragePass none;
-  const CoveragePass& coverage = has_coverage ? canvas_.coverage : none;
+  canvas_.coverage.Measure(surfaces_, frame, canvas_.targets, tiles.fine.Rectangles());
   EnableSurfaceTests();
   passes_.ratio.DrawSurfaces(canvas_.targets, surfaces_, frame, tiles.fine.Bounds());
   passes_.objects.DrawSurfaces(canvas_.targets, surfaces_, frame, tiles.objects.Bounds());
   glDisable(GL_CULL_FACE);
   light_.BindShade();
-  passes_.objects.Draw(canvas_.targets, surfaces_, coverage, programs, frame, light_.environment(),
-                       tiles.objects.Rectangles());
+  passes_.objects.Draw(canvas_.targets, surfaces_, canvas_.coverage, programs, frame,
+                       light_.environment(), tiles.objects.Rectangles());
   canvas_.picture.BindForShading(2, 3, 4);
-  passes_.ratio.Draw(canvas_.targets, surfaces_, coverage, programs, frame, unmodelled_,
+  passes_.ratio.Draw(canvas_.targets, surfaces_, canvas_.coverage, programs, frame, unmodelled_,
                      tiles.fine.Rectangles());
   glDisable(GL_DEPTH_TEST);
 }

@@ -15,6 +15,7 @@
 #include "app/options/model_options.h"
 #include "app/options/number_range.h"
 #include "app/options/option_use.h"
+#include "app/options/place_option.h"
 #include "app/options/trajectory_options.h"
 #include "app/project/new_project.h"
 #include "app/project/questions.h"

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "app/place/transform_warnings.h"
 #include "content/georeference/nearness.h"
 
 namespace pleinair::app {
@@ -254,20 +255,8 @@ std::vector<std::string> PlacementWarnings(const Placement& placement) {
   for (const content::PlacedLayer& layer : placement.layers) {
     const content::TransformFacts& facts = layer.facts;
     const std::string name = "layer \"" + layer.name + "\": ";
-    if (facts.datum_unknown) {
-      warnings.push_back(name +
-                         "PROJ knows no relation of its datum to WGS 84; places may be "
-                         "wrong by hundreds of metres");
-    }
-    if (!facts.missing_grids.empty()) {
-      warnings.push_back(name + "a more accurate transformation needs the grid " +
-                         facts.missing_grids.front() + "; \"projsync --file " +
-                         facts.missing_grids.front() + "\" (package proj-bin) installs it");
-    }
-    if (facts.place_outside_area) {
-      warnings.push_back(name + "the marker lies outside the area of use of " + facts.crs + ", " +
-                         facts.area);
-    } else if (layer.vertices_outside_area > 0) {
+    for (const std::string& warning : TransformWarnings(facts)) warnings.push_back(name + warning);
+    if (!facts.place_outside_area && layer.vertices_outside_area > 0) {
       warnings.push_back(
           name + fmt::format("{} of {} vertices lie outside the area of use of {}, {}",
                              layer.vertices_outside_area, layer.vertices, facts.crs, facts.area));

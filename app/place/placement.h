@@ -23,7 +23,7 @@ struct Placement {
 struct PlacementSummary {
   std::size_t features = 0, empty_features = 0, vertices = 0;
   std::size_t beyond_radius = 0;  ///< Features whose nearest point is farther than the radius.
-  content::WorldBounds bounds;    ///< Of the features that are not beyond.
+  content::WorldBounds bounds;    ///< Around the features that are not beyond.
   const content::PlacedFeature* nearest = nullptr;   ///< Null: no feature has a geometry.
   const content::PlacedFeature* farthest = nullptr;  ///< Among those that are not beyond.
 };

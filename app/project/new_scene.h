@@ -74,10 +74,6 @@ Result<NewScene> CollectScene(const Footage& footage, const StatedScene& stated,
 /// offered heading, although the search may not find the marker. Error (input): as CollectScene().
 Result<void> CheckNothingIsMissing(const std::vector<FilmLook>& sources, const StatedScene& stated);
 
-/// Parses "LAT,LON" or "LAT,LON,HEIGHT" in degrees and metres. Error (input): other text, or a
-/// place beyond the poles or the date line.
-Result<devices::FilmTags::Place> ParsePlace(const std::string& text);
-
 /// Checks a time of a scene (ParseTimeOption()) and returns it as it is written.
 Result<std::string> ParseSceneTime(const std::string& text);
 

@@ -13,6 +13,7 @@
 #include "app/options/number_range.h"
 #include "app/options/option_use.h"
 #include "app/place/marker_place.h"
+#include "app/place/transform_warnings.h"
 #include "base/atomic_file.h"
 #include "content/terrain/elevation_mesh.h"
 #include "files/csv.h"
@@ -114,14 +115,8 @@ void WarnOfTerrain(const TerrainArguments& arguments, const content::ElevationMe
         "warning: {}: cells are twisted: the error is {:.3f} m where --max-error asks for {:g} m\n",
         arguments.file, mesh.remaining_error_m, arguments.options.max_error_m);
   }
-  if (mesh.facts.datum_unknown) {
-    std::cerr << "warning: " << arguments.file
-              << ": PROJ knows no relation of its datum to WGS 84; it may lie hundreds of metres "
-                 "off: give the full system with --crs\n";
-  }
-  for (const std::string& grid : mesh.facts.missing_grids) {
-    std::cerr << "warning: " << arguments.file << ": a more accurate transformation needs the grid "
-              << grid << "; it errs by " << mesh.facts.accuracy_m << " m\n";
+  for (const std::string& warning : TransformWarnings(mesh.facts)) {
+    std::cerr << "warning: " << arguments.file << ": " << warning << '\n';
   }
 }
 

@@ -15,11 +15,11 @@ namespace pleinair::compositor {
 struct HidingPixel {
   int x = 0, y = 0;
   int layer = 0;           ///< LayerOf() the nearest surface.
-  float part = 0.0F;       ///< Of the pixel that it covers.
+  float part = 0.0F;       ///< The part of the pixel that it covers.
   bool is_object = false;  ///< It belongs to an object, else it is real.
 };
 
-/// The pixels of a window of the image, and beside it, that may hide what is seen: those within
+/// The pixels of a window of the image, and beside it, that may hide what is seen. They lie within
 /// `reach_px` of a pixel that shows surfaces farther by two layers and more.
 std::vector<HidingPixel> HidingPixels(const PixelSurfaces& surfaces, const PixelRect& window,
                                       int reach_px);

@@ -27,7 +27,7 @@ struct AveragedViews {
 /// Where the objects of an image are, per pixel: the mean over the views.
 struct ObjectDistances {
   Image<float> dioptres;  ///< 1/z, 1/m, where they have a share.
-  Image<float> share;     ///< Of the views and of the pixel's samples, 0…1.
+  Image<float> share;     ///< Part of the views and of the pixel's samples, 0…1.
 };
 
 /// Weight of a view. All are 1 / count but for rounding to multiples of 2⁻²⁰, whose sums are exact:

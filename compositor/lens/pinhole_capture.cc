@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "compositor/lens/lens_view.h"
@@ -24,10 +25,10 @@ PixelRect BoundsOf(std::span<const PixelRect> within) {
   return {left, top, right - left, bottom - top};
 }
 
-/// Pixels beside the rectangle around `within` have the value 0, as the other targets are cleared.
-Image<float> Downloaded(const gl::GlTexture& texture, std::span<const PixelRect> within,
-                        int channels = 4) {
-  Image<float> image(texture.width(), texture.height(), channels);
+/// The texture in the rectangle around `within`, and `image` beside that.
+Image<float> DownloadedInto(Image<float> image, const gl::GlTexture& texture,
+                            std::span<const PixelRect> within) {
+  const int channels = image.channels();
   const PixelRect part = BoundsOf(within);
   texture.DownloadPart(part.x, part.y, part.width, part.height, channels == 4 ? GL_RGBA : GL_RG,
                        GL_FLOAT, channels * static_cast<int>(sizeof(float)),
@@ -35,18 +36,18 @@ Image<float> Downloaded(const gl::GlTexture& texture, std::span<const PixelRect>
   return image;
 }
 
-/// The ratio, which is 1 beside the rectangle around `within`.
+/// The texture, 0 beside the rectangle.
+Image<float> Downloaded(const gl::GlTexture& texture, std::span<const PixelRect> within,
+                        int channels = 4) {
+  return DownloadedInto(Image<float>(texture.width(), texture.height(), channels), texture, within);
+}
+
+/// The ratio, beside the rectangle as where it is not drawn: 1, with alpha 0.
 Image<float> DownloadedRatio(const RenderTargets& targets, std::span<const PixelRect> within) {
-  Image<float> ratio = Downloaded(targets.ratio(), within);
-  const PixelRect part = BoundsOf(within);
-  for (int y = 0; y < ratio.height(); ++y) {
-    const bool is_row = y >= part.y && y < part.y + part.height;
-    for (int x = 0; x < ratio.width(); ++x) {
-      if (is_row && x == part.x) x += part.width;
-      if (x < ratio.width()) std::fill_n(&ratio(x, y), 3, 1.0F);
-    }
-  }
-  return ratio;
+  const gl::GlTexture& texture = targets.ratio();
+  Image<float> ratio(texture.width(), texture.height(), 4);
+  for (std::size_t i = 0; i < ratio.size(); ++i) ratio.data()[i] = i % 4 == 3 ? 0.0F : 1.0F;
+  return DownloadedInto(std::move(ratio), texture, within);
 }
 
 /// Fills in the distances of surfaces whose part of a pixel lies between the renderer's samples,

@@ -53,7 +53,7 @@ Result<CoveragePass> CoveragePass::Create(int places, bool textured) {
 void CoveragePass::Measure(SceneSurfaces& surfaces, const FrameUniforms& frame,
                            const RenderTargets& targets, std::span<const PixelRect> within) {
   rectangles_.clear();
-  if (!coverage_) return;
+  if (!coverage_ || frame.place.behind.dioptres != nullptr) return;
   for (const PixelRect& tiles : within) drawn_px_ += std::int64_t{tiles.width} * tiles.height;
   coverage_->Measure(
       surfaces.DrawnMeshes(),

@@ -28,7 +28,8 @@ class CoveragePass {
   static Result<CoveragePass> Create(int places, bool textured);
 
   /// Computes the coverage of the image of `targets`. `within`: all pixels drawn, in disjoint
-  /// rectangles. Without memory for textures, the renderer's samples stay.
+  /// rectangles. Without memory for textures, the renderer's samples stay. They do so in frames
+  /// with BehindNearest, too, which are shown through a lens alone, whose edges are soft.
   void Measure(SceneSurfaces& surfaces, const FrameUniforms& frame, const RenderTargets& targets,
                std::span<const PixelRect> within);
 

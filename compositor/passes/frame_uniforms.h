@@ -17,12 +17,12 @@ struct EnvironmentMix {
   glm::vec3 up{0.0F, 0.0F, 1.0F};
 };
 
-/// What a frame leaves out, so that it shows what lies behind. Of what is left both sides are
-/// drawn, as the far side of a body covers what is behind it, too.
+/// What a frame leaves out, so that it shows what lies behind. Both sides of the rest are drawn, as
+/// the far side of a body covers what is behind it, too.
 struct BehindNearest {
   /// 1/z, 1/m, one channel: each pixel's nearest surface that is drawn. 0: none is. Null: all are.
   const gl::GlTexture* dioptres = nullptr;
-  float near_dioptres = 0.0F, far_dioptres = 0.0F;  ///< Of the view's planes.
+  float near_dioptres = 0.0F, far_dioptres = 0.0F;  ///< The view's planes.
 };
 
 /// The part of a pixel that is drawn.

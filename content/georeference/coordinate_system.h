@@ -27,8 +27,8 @@ struct CoordinateSystem {
   /// True if the CRS defines what its heights are measured from: compound, three-dimensional and
   /// geocentric ones do.
   bool states_heights = false;
-  std::string vertical_name;      ///< Of the vertical part of a compound CRS; else empty.
-  std::string horizontal_code;    ///< Of its horizontal part, as "EPSG:32633"; empty: it has none.
+  std::string vertical_name;      ///< The vertical part's of a compound CRS; else empty.
+  std::string horizontal_code;    ///< Its horizontal part's, as "EPSG:32633"; empty: it has none.
   std::optional<AreaOfUse> area;  ///< Unset: not stated.
 };
 

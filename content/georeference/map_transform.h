@@ -21,22 +21,22 @@ enum class HeightDatum {
 struct TransformFacts {
   std::string crs;        ///< Name and code of the content's CRS.
   std::string operation;  ///< PROJ's name of the operation to WGS 84.
-  /// Of the operation, as its authority states it, metres. 0: no change of datum.
+  /// The operation's accuracy, as its authority states it, metres. 0: no change of datum.
   double accuracy_m = 0.0;
   bool datum_unknown = false;  ///< The datum is taken for WGS 84; errors reach hundreds of metres.
-  std::vector<std::string> missing_grids;  ///< Of a more accurate operation; not installed.
+  std::vector<std::string> missing_grids;  ///< Not installed; a more accurate operation needs them.
   HeightDatum heights = HeightDatum::kShared;
   std::string vertical;  ///< The content's vertical reference; empty: not stated.
-  /// Of the geoid above the ellipsoid at the place, metres; set if the place's height above sea
-  /// level was transformed.
+  /// The geoid's height above the ellipsoid at the place, metres. Set if the place's height above
+  /// sea level was transformed.
   std::optional<double> undulation_m;
   std::string geoid;                ///< Its CRS, "EGM96 height".
   bool place_outside_area = false;  ///< The place lies outside the CRS's area of use.
   std::string area;                 ///< Its name; empty: not stated.
 };
 
-/// A point of the map: x east and y north (or longitude and latitude in degrees) whatever the axis
-/// order of the authority, z up, in the units of the CRS.
+/// A point of the map, in the units of the CRS: x east, y north, z up, or longitude and latitude in
+/// degrees. The axis order of the authority does not matter.
 using MapPoint = Vec3;
 
 /// Transforms coordinates of any CRS to east, north, up at a place. Each point passes the CRS's
@@ -51,7 +51,7 @@ using MapPoint = Vec3;
 class MapTransform {
  public:
   /// `where` names the file in errors. Errors (input): the CRS is not known; the place is not on
-  /// Earth; a grid for its heights is missing (the error names it and the remedy).
+  /// Earth. A grid for its heights is missing: the error names it and the remedy.
   static Result<MapTransform> Create(const std::string& crs, const Place& place,
                                      const std::string& where);
   ~MapTransform();

@@ -36,9 +36,9 @@ struct PlacedFeature {
   std::vector<PlacedPart> parts;
   WorldBounds bounds;
   bool surrounds_marker = false;     ///< The marker lies inside the area; nearest_m is then 0.
-  double nearest_m = 0.0;            ///< Of all points of its lines and areas.
+  double nearest_m = 0.0;            ///< All points of its lines and areas count.
   double nearest_azimuth_deg = 0.0;  ///< Clockwise from true north, 0…360.
-  double farthest_m = 0.0;           ///< Of its vertices.
+  double farthest_m = 0.0;           ///< Its vertices count.
   double farthest_azimuth_deg = 0.0;
 };
 
@@ -53,8 +53,8 @@ struct PlacedLayer {
 };
 
 /// Transforms all vertices of the layers. `crs` replaces those of the layers unless it is empty.
-/// Errors (input): a layer without CRS; those of MapTransform; nothing within `radius_m` of the
-/// place (as CheckNear()); a vertex at which the CRS is not defined, with the feature's number.
+/// Errors (input): a layer without CRS; those of MapTransform; those of CheckNear(). The CRS is not
+/// defined at a vertex: the error has the feature's number.
 Result<std::vector<PlacedLayer>> PlaceLayers(std::span<const VectorLayer> layers,
                                              const std::string& crs, const Place& place,
                                              double radius_m, const std::string& where);

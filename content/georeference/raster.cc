@@ -1,9 +1,7 @@
 #include "content/georeference/raster.h"
 
-#include <cpl_conv.h>
 #include <gdal.h>
 #include <gdal_frmts.h>
-#include <ogr_srs_api.h>
 
 #include <cmath>
 #include <limits>
@@ -11,6 +9,7 @@
 #include <utility>
 
 #include "content/georeference/gdal_handles.h"
+#include "content/georeference/stated_crs.h"
 
 namespace pleinair::content {
 namespace {
@@ -29,25 +28,6 @@ void RegisterRasters() {
     GDALRegister_AAIGrid();
     GDALRegister_HFA();
   });
-}
-
-/// Sets the text and the name of the CRS that a dataset states.
-void ReadRasterCrs(GDALDatasetH dataset, std::string* crs, std::string* name) {
-  OGRSpatialReferenceH srs = GDALGetSpatialRef(dataset);
-  if (srs == nullptr) return;
-  const char* stated = OSRGetName(srs);
-  *name = stated != nullptr ? stated : "unknown";
-  const char* authority = OSRGetAuthorityName(srs, nullptr);
-  const char* code = OSRGetAuthorityCode(srs, nullptr);
-  if (authority != nullptr && code != nullptr) {
-    *crs = std::string(authority) + ":" + code;
-    *name += " (" + *crs + ")";
-    return;
-  }
-  constexpr std::array<const char*, 2> kOptions = {"FORMAT=WKT2_2019", nullptr};
-  char* wkt = nullptr;
-  if (OSRExportToWktEx(srs, &wkt, kOptions.data()) == OGRERR_NONE && wkt != nullptr) *crs = wkt;
-  CPLFree(wkt);
 }
 
 }  // namespace
@@ -105,7 +85,9 @@ Result<RasterFile> RasterFile::Open(const fs::path& file, int band) {
   if (GDALGetGeoTransform(dataset, parts->map_from_cell.data()) != CE_None) {
     return InputError(where, "states no place of its cells", "export it with its georeference");
   }
-  ReadRasterCrs(dataset, &parts->crs, &parts->crs_name);
+  const StatedCrs crs = ReadStatedCrs(GDALGetSpatialRef(dataset));
+  parts->crs = crs.text;
+  parts->crs_name = crs.ForPeople();
   return RasterFile(std::move(parts));
 }
 

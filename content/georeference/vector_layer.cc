@@ -3,7 +3,6 @@
 #include <cpl_conv.h>
 #include <cpl_vsi.h>
 #include <ogr_api.h>
-#include <ogr_srs_api.h>
 #include <ogrsf_frmts.h>
 
 #include <algorithm>
@@ -17,6 +16,7 @@
 #include <utility>
 
 #include "content/georeference/gdal_handles.h"
+#include "content/georeference/stated_crs.h"
 
 namespace pleinair::content {
 namespace {
@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 constexpr const char* kKindsRemedy =
     "give a GeoJSON, GeoPackage (.gpkg) or Shapefile (.shp); ogr2ogr converts others";
 constexpr std::size_t kMaxName = 200;     // Bytes, of features and layers.
-constexpr int kMaxNesting = 32;           // Of collections in collections.
+constexpr int kMaxNesting = 32;           // Collections in collections.
 constexpr double kMaxStatedNumber = 1e9;  // As MapTransform: beyond are no metres or degrees.
 
 struct FeatureDeleter {
@@ -151,23 +151,11 @@ std::string NameOfFeature(OGRFeatureH feature) {
 
 /// The CRS that the layer states.
 void ReadCrs(OGRLayerH layer, bool geojson, VectorLayer* out) {
-  OGRSpatialReferenceH srs = OGR_L_GetSpatialRef(layer);
-  if (!srs) return;
-  const char* name = OSRGetName(srs);
-  out->crs_name = name ? name : "unknown";
-  const char* authority = OSRGetAuthorityName(srs, nullptr);
-  const char* code = OSRGetAuthorityCode(srs, nullptr);
-  if (authority && code) {
-    out->crs = std::string(authority) + ":" + code;
-    // GDAL's choice for every GeoJSON file with heights, whether it states them or not.
-    if (geojson && out->crs == "EPSG:4979") out->crs = "EPSG:4326";
-    out->crs_name += " (" + out->crs + ")";
-    return;
-  }
-  const std::array<const char*, 2> kOptions = {"FORMAT=WKT2_2019", nullptr};
-  char* wkt = nullptr;
-  if (OSRExportToWktEx(srs, &wkt, kOptions.data()) == OGRERR_NONE && wkt) out->crs = wkt;
-  CPLFree(wkt);
+  StatedCrs stated = ReadStatedCrs(OGR_L_GetSpatialRef(layer));
+  // GDAL's choice for every GeoJSON file with heights, whether it states them or not.
+  if (geojson && stated.text == "EPSG:4979") stated.text = "EPSG:4326";
+  out->crs = stated.text;
+  out->crs_name = stated.ForPeople();
 }
 
 Result<VectorLayer> ReadLayer(OGRLayerH layer, bool geojson, const std::string& where,

@@ -12,7 +12,7 @@
 
 namespace pleinair::content {
 
-/// Size limits of a file of vectors.
+/// Size limits of a file of vectors, and of what is made of any map.
 constexpr std::size_t kMaxVectorFileBytes = std::size_t{4} << 30;
 constexpr std::size_t kMaxVertices = 20'000'000;
 
@@ -43,8 +43,8 @@ struct VectorLayer {
 /// Reads the layers of a GeoJSON, GeoPackage or Shapefile by GDAL, which recognises them by
 /// content. `layer`: read that one alone. Curves become polylines with steps of 4 degrees. Heights
 /// of a GeoJSON file without a `crs` member count as not stated. Errors (input): no file of these
-/// kinds, damaged, larger than the limits, no layer of that name (the error lists those there are),
-/// no layer with geometry, a coordinate that is not finite (the error has the feature's number).
+/// kinds, damaged, larger than the limits, no layer with geometry. A layer of that name is missing:
+/// the error lists those there are. A coordinate is not finite: it has the feature's number.
 Result<std::vector<VectorLayer>> ReadVectorLayers(const std::filesystem::path& file,
                                                   const std::optional<std::string>& layer = {});
 

@@ -12,6 +12,7 @@
 #include "base/vector.h"
 #include "content/georeference/nearness.h"
 #include "content/georeference/raster.h"
+#include "content/georeference/vector_layer.h"
 #include "content/terrain/right_triangles.h"
 
 namespace pleinair::content {
@@ -163,8 +164,8 @@ Result<void> NothingNear(const RasterFile& raster, const MapTransform& transform
                     "choose a larger radius, or a raster that covers the place");
 }
 
-/// Adds the triangles of the heights to a mesh.
-void AddTriangles(const Image<float>& up_m, const CellPlaces& places, bool is_mirrored,
+/// Adds the triangles of the heights to a mesh. Returns whether it has at most kMaxVertices.
+bool AddTriangles(const Image<float>& up_m, const CellPlaces& places, bool is_mirrored,
                   double max_error_m, ElevationMesh* mesh) {
   constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
   Image<std::uint32_t> numbers(up_m.width(), up_m.height());
@@ -184,11 +185,13 @@ void AddTriangles(const Image<float>& up_m, const CellPlaces& places, bool is_mi
   const RightTriangles network(up_m);
   mesh->remaining_error_m =
       network.Emit(static_cast<float>(max_error_m), [&](const GridTriangle& triangle) {
+        if (mesh->vertices.size() > kMaxVertices) return;
         std::array<std::uint32_t, 3> corners{number_of(triangle[0]), number_of(triangle[1]),
                                              number_of(triangle[2])};
         if (is_mirrored) std::swap(corners[1], corners[2]);
         mesh->triangles.push_back(corners);
       });
+  return mesh->vertices.size() <= kMaxVertices;
 }
 
 }  // namespace
@@ -230,7 +233,10 @@ Result<ElevationMesh> TriangulateRaster(const std::filesystem::path& file, const
     }
     mesh.shift_m -= static_cast<double>(at_marker_m);
   }
-  AddTriangles(up_m, places, marker->Area_m2() < 0.0, options.max_error_m, &mesh);
+  if (!AddTriangles(up_m, places, marker->Area_m2() < 0.0, options.max_error_m, &mesh)) {
+    return InputError(where, "needs more than 20 million vertices within this error",
+                      "allow a larger error, or choose a smaller radius");
+  }
   return mesh;
 }
 

@@ -22,7 +22,7 @@ enum class TerrainHeight {
 struct TerrainOptions {
   int band = 1;
   std::string crs = {};       ///< In place of the file's; empty: that of the file.
-  double max_error_m = 0.05;  ///< Of the triangulation, vertical.
+  double max_error_m = 0.05;  ///< The triangulation's, vertical.
   double radius_m = 500.0;    ///< Cells farther from the marker are left out.
   TerrainHeight height = TerrainHeight::kMarker;
   double raised_by_m = 0.0;  ///< Added to all heights.
@@ -45,8 +45,8 @@ struct ElevationMesh {
 /// Triangulates a raster (RasterFile). The truth is bilinear between the centres of cells, in the
 /// tangent frame: the curvature of the Earth counts. Positions pass MapTransform every 32 cells and
 /// are interpolated between, within 0.1 mm for cells of 5 m. Errors (input): those of RasterFile
-/// and of MapTransform; no CRS; nothing within the radius; with TerrainHeight::kMarker no data at
-/// the marker.
+/// and of MapTransform; no CRS; nothing within the radius; more than kMaxVertices. With
+/// TerrainHeight::kMarker also: no data at the marker.
 Result<ElevationMesh> TriangulateRaster(const std::filesystem::path& file, const Place& place,
                                         const TerrainOptions& options);
 

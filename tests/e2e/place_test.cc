@@ -258,10 +258,10 @@ TEST_P(PlaceRefusal, IsOneLineAndLeavesNothing) { ExpectRefusal("place", GetPara
 INSTANTIATE_TEST_SUITE_P(
     BadInput, PlaceRefusal,
     ::testing::Values(Refusal{"NoPlace", {"map.gpkg"}, "needs the place of the marker"},
-                      Refusal{"NoNumber", {"map.gpkg", "--at", "50,x"}, "has no longitude"},
+                      Refusal{"NoNumber", {"map.gpkg", "--at", "50,x"}, "is not a place"},
                       Refusal{"OneNumber", {"map.gpkg", "--at", "50"}, "is not a place"},
                       Refusal{"FourNumbers", {"map.gpkg", "--at", "50,14,2,3"}, "is not a place"},
-                      Refusal{"Latitude", {"map.gpkg", "--at", "91,14"}, "has no latitude"},
+                      Refusal{"Latitude", {"map.gpkg", "--at", "91,14"}, "is not a place"},
                       Refusal{"Ending",
                               {"map.gpkg", "--at", "50,14", "--plan", "OUT/plan.pdf"},
                               "ends in .svg or .png"},

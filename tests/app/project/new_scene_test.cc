@@ -5,6 +5,7 @@
 
 #include <sstream>
 
+#include "app/options/place_option.h"
 #include "app/project/scene_text.h"
 #include "scene/scene_facts.h"
 

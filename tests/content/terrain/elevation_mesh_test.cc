@@ -142,7 +142,6 @@ double Rolling(double east_m, double north_m) {
 
 // Vertices are where an independent library has them, half a cell of points and areas included.
 TEST_F(TerrainOfRaster, StandsWhereTheFieldIs) {
-  const Utm marker = MarkerInUtm();
   const GeographicLib::LocalCartesian frame(kPlace.latitude_deg, kPlace.longitude_deg,
                                             kPlace.height_m);
   for (const bool is_point : {false, true}) {
@@ -162,7 +161,7 @@ TEST_F(TerrainOfRaster, StandsWhereTheFieldIs) {
       int zone = 0;
       bool is_north = true;
       GeographicLib::UTMUPS::Forward(latitude, longitude, zone, is_north, east_m, north_m, 33);
-      // At a cell's centre, with its height: 32-bit heights of 220 m have steps of 15 um.
+      // At a cell's centre, with its height. Numbers of 32 bits have steps of 15 um at 220 m.
       const double column = (east_m - grid.west_m) / grid.cell_m - 0.5;
       const double row = (north_m - grid.south_m) / grid.cell_m - 0.5;
       EXPECT_NEAR(column, std::round(column), 1e-3);
@@ -171,7 +170,6 @@ TEST_F(TerrainOfRaster, StandsWhereTheFieldIs) {
     }
     EXPECT_GT(farthest_m, 480.0);
     EXPECT_LE(farthest_m, 500.0);
-    (void)marker;
   }
 }
 
