@@ -6,6 +6,7 @@
 #include "compositor/lens/lens_pass.h"
 #include "compositor/passes/coarse_ratio.h"
 #include "compositor/passes/coverage_pass.h"
+#include "compositor/passes/ink_images.h"
 #include "compositor/passes/place_mean.h"
 #include "compositor/passes/render_camera.h"
 #include "compositor/passes/render_targets.h"
@@ -21,6 +22,7 @@ struct Canvas {
   PlaceMean places;
   CoveragePass coverage;
   CoarseRatio coarse;
+  InkImages ink;
   LensPass lens;
   CameraPicture picture;
 

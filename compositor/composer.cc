@@ -19,6 +19,7 @@
 #include "compositor/passes/frame_programs.h"
 #include "compositor/passes/frame_uniforms.h"
 #include "compositor/passes/glm_vectors.h"
+#include "compositor/passes/ink_pass.h"
 #include "compositor/passes/object_pass.h"
 #include "compositor/passes/scene_shadows.h"
 #include "compositor/passes/scene_view.h"
@@ -34,6 +35,7 @@ namespace {
 struct Passes {
   ShadowRatioPass ratio;
   ObjectPass objects;
+  InkPass ink;
   FramePrograms programs;
   std::optional<ShadowDebugView> debug_view;  // Created on first use, for one canvas.
 };
@@ -79,6 +81,7 @@ class GlComposer : public Composer {
   void SetMotion(const CameraMotion& motion, int max_views) override {
     lens_.SetMotion(motion, max_views);
   }
+  Result<void> SetInk(std::span<const InkShape> shapes, const Mat3& marker_from_world) override;
   LensFigures DrawnLens() const override { return lens_.figures(); }
   Result<void> SkipImage(const Transform<Camera, Marker>& camera_from_marker) override;
   Result<void> SetCameraLook(const std::optional<CameraLook>& look) override {
@@ -109,6 +112,7 @@ class GlComposer : public Composer {
                         LinearRgb exposure_scale) const;
   AffectedTiles DrawCoarse(const SurfacePrograms& programs, const shadows::View& view,
                            const FrameUniforms& frame, int lens_spread_px);
+  Result<void> DrawInk(const shadows::View& view, const FrameUniforms& frame);
   Result<void> DrawDebugView(const shadows::View& view);
 
   gl::EglContext context_;  // First, so that it outlives the GL objects.
@@ -180,6 +184,7 @@ Result<void> GlComposer::SetOptions(const ComposerOptions& options) {
   if (maps != shadows_.options()) PLEINAIR_RETURN_IF_ERROR(MakeShadows(maps));
   if (other_shaders) {
     passes_.programs.Clear();
+    passes_.ink.ClearPrograms();
     PLEINAIR_RETURN_IF_ERROR(ProgramsFor({}));
   }
   surfaces_.Use(options.reductions);
@@ -231,6 +236,32 @@ void GlComposer::SetSun(const sky::SkyModel& day, const Mat3& marker_from_world)
 Result<void> GlComposer::SetSunTransmittance(const SunShade& shade) {
   PLEINAIR_RETURN_IF_ERROR(context_.MakeCurrent());
   return light_.SetShade(shade);
+}
+
+Result<void> GlComposer::SetInk(std::span<const InkShape> shapes, const Mat3& marker_from_world) {
+  PLEINAIR_RETURN_IF_ERROR(context_.MakeCurrent());
+  PLEINAIR_RETURN_IF_ERROR(passes_.ink.SetShapes(shapes, marker_from_world));
+  surfaces_.NumberAll(!passes_.ink.empty());
+  return {};
+}
+
+/// Draws the ink that the pinhole camera sees. Requires classified surfaces.
+Result<void> GlComposer::DrawInk(const shadows::View& view, const FrameUniforms& frame) {
+  if (passes_.ink.empty()) return {};
+  if (!canvas_.ink.kept) {
+    PLEINAIR_ASSIGN_OR_RETURN(canvas_.ink,
+                              InkImages::Create(canvas_.camera.width, canvas_.camera.height));
+  }
+  canvas_.ink.tiles =
+      passes_.ink.TilesOf(ProjectionOf(canvas_.camera, view, 0), surfaces_.placement().bounds());
+  canvas_.picture.BindForShading(2, 3, 4);
+  light_.BindShade();
+  return passes_.ink.Draw(canvas_.targets, surfaces_, passes_.ratio, frame, unmodelled_,
+                          {.blur_px = static_cast<float>(canvas_.picture.Blur_px()),
+                           .render_px = static_cast<float>(canvas_.picture.supersampling()),
+                           .maps = shadows_.options(),
+                           .fades = shadows_.Fades()},
+                          canvas_.ink);
 }
 
 Result<void> GlComposer::DrawDebugView(const shadows::View& view) {
@@ -308,6 +339,10 @@ AffectedTiles GlComposer::DrawCoarse(const SurfacePrograms& programs, const shad
   light_.BindShade();
   if (options_.show_shadow_maps) tiles.all.IncludeAll();
   if (frame.linear_needs_airlight) tiles.fine.Include(tiles.all);
+  if (!passes_.ink.empty()) {
+    tiles.all.Include(canvas_.ink.tiles);
+    tiles.fine.Include(canvas_.ink.tiles);
+  }
   const ImageTiles coarse = tiles.all.Without(tiles.fine);
   if (coarse.Count() > 0) {
     tiles.fine.Include(
@@ -353,6 +388,7 @@ Result<RgbImage> GlComposer::Compose(CameraImageView image,
   PLEINAIR_ASSIGN_OR_RETURN(const shadows::View view, UpdateScene(camera_from_marker));
   const FrameUniforms frame = FrameOf(view, camera_from_marker, exposure_scale);
   PLEINAIR_ASSIGN_OR_RETURN(const SurfacePrograms* programs, ProgramsFor(frame));
+  PLEINAIR_RETURN_IF_ERROR(DrawInk(view, frame));
   const auto draw_pinhole = [&](int lens_spread_px) {
     AffectedTiles drawn = DrawCoarse(*programs, view, frame, lens_spread_px);
     canvas_.places.Draw(canvas_.targets, frame, drawn.fine.Rectangles(),
@@ -378,8 +414,9 @@ Result<RgbImage> GlComposer::Compose(CameraImageView image,
                          DrawScene(*programs, through, drawn);
                        }};
   PLEINAIR_ASSIGN_OR_RETURN(const RealOccluders* occluders, lens_.Draw(seen, frame, view, &tiles));
-  PLEINAIR_RETURN_IF_ERROR(
-      canvas_.picture.Draw(canvas_.targets, canvas_.coarse.ratio(), tiles, occluders));
+  PLEINAIR_RETURN_IF_ERROR(canvas_.picture.Draw(canvas_.targets, canvas_.coarse.ratio(), tiles,
+                                                occluders,
+                                                passes_.ink.empty() ? nullptr : &canvas_.ink));
   if (options_.show_shadow_maps && light_.HasSun()) {
     PLEINAIR_RETURN_IF_ERROR(DrawDebugView(view));
   }

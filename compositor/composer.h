@@ -14,6 +14,7 @@
 #include "base/image.h"
 #include "base/vector.h"
 #include "compositor/composer_options.h"
+#include "compositor/ink/ink_shape.h"
 #include "compositor/lens/camera_motion.h"
 #include "compositor/lens/lens_figures.h"
 #include "compositor/lens/thin_lens.h"
@@ -112,6 +113,11 @@ class Composer {
   /// the lens in the same mean. Views lie half a pixel apart, and are `max_views` at most. Other
   /// images have the bytes of those without. What moves in the scene is drawn at rest.
   virtual void SetMotion(const CameraMotion& motion, int max_views) = 0;
+
+  /// Lays ink on the real surfaces that phantoms represent, from the next image on; the first shape
+  /// is the lowest. None, the default: no ink. Real shadows stay on ink, and objects cast theirs on
+  /// it. It follows the blur of SetCameraLook(); a lens leaves it sharp. Errors: no memory.
+  virtual Result<void> SetInk(std::span<const InkShape> shapes, const Mat3& marker_from_world) = 0;
 
   /// What the lens has drawn in the last image; camera pixels.
   virtual LensFigures DrawnLens() const = 0;

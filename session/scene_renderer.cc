@@ -7,6 +7,7 @@
 #include <memory>
 #include <numbers>
 #include <set>
+#include <span>
 #include <utility>
 
 #include "compositor/light/light_solver.h"
@@ -36,7 +37,7 @@ double MillisecondsSince(Clock::time_point start) {
 }  // namespace
 
 SceneRenderer::SceneRenderer(const CameraModel& camera, const scene::SceneDescription& scene)
-    : camera_(camera), scene_(scene) {}
+    : camera_{camera, {}}, scene_(scene) {}
 
 SceneRenderer::~SceneRenderer() = default;
 
@@ -70,12 +71,12 @@ Result<std::unique_ptr<SceneRenderer>> SceneRenderer::Create(
   } else if (light.film_response && !light.film_response->IsSrgb()) {
     renderer->summary_.response.source = ResponseSummary::Source::kFilm;
     composing.response = *light.film_response;
-    renderer->response_ = composing.response;
+    renderer->camera_.response = composing.response;
   }
   if (!scene.camera.response.empty() && scene.camera.response != kSrgbResponse) {
     PLEINAIR_ASSIGN_OR_RETURN(composing.response,
                               devices::ReadCameraResponse(scene.camera.response));
-    renderer->response_ = composing.response;
+    renderer->camera_.response = composing.response;
   }
   const compositor::LightSolverOptions solving = SolverOptionsOf(light);
   // The solver prepares the geometry while OpenGL compiles its programs.
@@ -94,7 +95,7 @@ void SceneRenderer::SetMarkerReflectance(const scene::MarkerReflectance& marker_
   if (!light_ || !light_->in_use() || light_->made_elsewhere()) return;
   exposure_.SetMeter(compositor::MarkerLightMeter(
       marker_reflectance_, light_->phantoms(), light_->in_use()->daylight,
-      scene::MarkerFromWorld(scene_.marker), response_));
+      scene::MarkerFromWorld(scene_.marker), camera_.response));
 }
 
 bool SceneRenderer::CanMeasureLight() const { return composer_ && !scene_.phantoms.empty(); }
@@ -102,8 +103,8 @@ bool SceneRenderer::CanMeasureLight() const { return composer_ && !scene_.phanto
 void SceneRenderer::ObserveLight(CameraImageView image,
                                  const Transform<Camera, Marker>& camera_from_marker, UtcTime time,
                                  bool shows_marker) {
-  light_->Observe(image, camera_, camera_from_marker, time, scene_, marker_reflectance_, response_,
-                  shows_marker);
+  light_->Observe(image, camera_.model, camera_from_marker, time, scene_, marker_reflectance_,
+                  camera_.response, shows_marker);
 }
 
 void SceneRenderer::ProbeLight(CameraImageView image, const CameraModel& camera,
@@ -112,7 +113,7 @@ void SceneRenderer::ProbeLight(CameraImageView image, const CameraModel& camera,
                                const scene::MarkerReflectance& marker_reflectance) {
   if (!light_) return;
   light_->Probe(image, camera, camera_from_marker, frame_index, timestamp_ns, marker_reflectance,
-                response_);
+                camera_.response);
 }
 
 void SceneRenderer::FollowLight(UtcTime time, const std::set<std::int64_t>& reference) {
@@ -127,8 +128,8 @@ Result<void> SceneRenderer::EstimateResponse(const std::set<std::int64_t>& frame
   summary_.response = {found->conclusive ? Source::kMeasured : summary_.response.source,
                        found->log_evidence, found->log_error};
   if (!found->conclusive) return {};
-  response_ = found->response;
-  return composer_->SetResponse(response_);
+  camera_.response = found->response;
+  return composer_->SetResponse(camera_.response);
 }
 
 Result<void> SceneRenderer::EstimateLight() {
@@ -163,7 +164,7 @@ std::shared_ptr<const compositor::DaylightCoefficients> SceneRenderer::Coefficie
 }
 
 LightingRequest SceneRenderer::MakeLightingRequest(UtcTime time) const {
-  return light_->Request(time, scene_, marker_reflectance_, response_);
+  return light_->Request(time, scene_, marker_reflectance_, camera_.response);
 }
 
 Result<void> SceneRenderer::TakeLight(std::shared_ptr<const BakedLighting> light,
@@ -223,7 +224,7 @@ Result<void> SceneRenderer::Edit(const SceneEdit& edit) {
   }
   MoveObjects();
   compositor::ComposerOptions drawing = edit.drawing;
-  drawing.response = response_;
+  drawing.response = camera_.response;
   return composer_->SetOptions(drawing);
 }
 
@@ -271,7 +272,7 @@ void SceneRenderer::UpdateExposureScale(CameraImageView image,
     summary_.exposure_scale = *scene_.camera.exposure_scale * followed.exposure;
     return;
   }
-  exposure_.Read(image, camera_, marker, light_->skies().marker_shade, followed, &summary_);
+  exposure_.Read(image, camera_.model, marker, light_->skies().marker_shade, followed, &summary_);
 }
 
 void SceneRenderer::SummarizeLight(const FollowedLight& followed) {
@@ -318,8 +319,8 @@ Result<void> SceneRenderer::UpdateCameraLook(CameraImageView image,
                                              const Transform<Camera, Marker>& camera_from_marker) {
   if (!matched_.look) return {};
   const auto look =
-      matched_.look->Update(image.rgb(), camera_, camera_from_marker, marker_reflectance_,
-                            response_, summary_.camera.lens, matched_.motion);
+      matched_.look->Update(image.rgb(), camera_.model, camera_from_marker, marker_reflectance_,
+                            camera_.response, summary_.camera.lens, matched_.motion);
   if (!look) return {};
   summary_.camera.look = look;
   return composer_->SetCameraLook(look);
@@ -338,6 +339,8 @@ Result<void> SceneRenderer::Follow(CameraImageView image,
     PLEINAIR_RETURN_IF_ERROR(composer_->SetSunTransmittance({.clouds = stated->shadow}));
   }
   PLEINAIR_RETURN_IF_ERROR(composer_->SetLightMix(light_->in_use()->meshes, followed.mix));
+  PLEINAIR_RETURN_IF_ERROR(ink_.Update(std::span(placed_).first(scene_.phantoms.size()),
+                                       scene::MarkerFromWorld(scene_.marker), composer_.get()));
   // Last: it draws other meshes, with the same mix.
   PLEINAIR_RETURN_IF_ERROR(FadeLight(time));
   times_.light_ms = MillisecondsSince(start);
@@ -380,9 +383,9 @@ Result<RgbImage> SceneRenderer::Render(CameraImageView image,
   most.peels = std::max(most.peels, drawn.peels);
   most.longest_streak_px = std::max(most.longest_streak_px, drawn.longest_streak_px);
   most.views = std::max(most.views, drawn.views);
-  compositor::PutInFront(image.rgb(),
-                         compositor::MaskOccluder(image.rgb(), camera_, camera_from_marker, cover),
-                         &composed);
+  compositor::PutInFront(
+      image.rgb(), compositor::MaskOccluder(image.rgb(), camera_.model, camera_from_marker, cover),
+      &composed);
   times_.compose_ms = MillisecondsSince(start);
   return composed;
 }

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "base/camera_image.h"
@@ -23,6 +24,7 @@
 #include "session/camera_look_filter.h"
 #include "session/exposure_meter.h"
 #include "session/frame_lens.h"
+#include "session/ink/ground_ink.h"
 #include "session/light_follower.h"
 #include "session/light_options.h"
 #include "session/light_summary.h"
@@ -105,6 +107,9 @@ class SceneRenderer {
   /// of the light.
   Result<void> Edit(const SceneEdit& edit);
 
+  /// Sets the ink on the phantoms, from the next frame on.
+  void SetInk(InkSource source) { ink_.SetSource(std::move(source)); }
+
   /// The lens of the frames.
   const FrameLens& lens() const { return matched_.lens; }
   /// As FrameLens::UseMeasured(), before the first frame is rendered.
@@ -124,7 +129,7 @@ class SceneRenderer {
                  const std::optional<double>& own_exposure_s);
 
   /// Response of the camera: as in the scene, estimated, or sRGB.
-  const CameraResponse& response() const { return response_; }
+  const CameraResponse& response() const { return camera_.response; }
 
   /// Releases the OpenGL context, so that another thread can draw.
   void LetGo();
@@ -185,14 +190,17 @@ class SceneRenderer {
                            const std::optional<Transform<Camera, Marker>>& marker,
                            const FollowedLight& followed);
 
-  CameraModel camera_;
-  CameraResponse response_;
+  struct {
+    CameraModel model;
+    CameraResponse response;
+  } camera_;
   scene::SceneDescription scene_;
   scene::MarkerReflectance marker_reflectance_;
   std::vector<compositor::PlacedModel> placed_;
   // Both empty if there are no objects to draw.
   std::optional<SceneLight> light_;
   std::unique_ptr<compositor::Composer> composer_;
+  GroundInk ink_;
   ExposureMeter exposure_;
   /// How drawn pixels are made to look like the camera's.
   struct {

@@ -226,14 +226,26 @@ ImageTiles CameraPicture::SetTiles(const AffectedTiles& tiles) {
   return fine;
 }
 
-Result<void> CameraPicture::Draw(const RenderTargets& targets, const gl::GlTexture& coarse_ratio,
-                                 const AffectedTiles& tiles, const RealOccluders* occluders) {
-  std::optional<gl::GlProgram>& occluded = programs_.occluded[grain_.look ? 1 : 0];
-  if (occluders != nullptr && !occluded) {
-    PLEINAIR_ASSIGN_OR_RETURN(gl::GlProgram program,
-                              CreateComposite({"OCCLUDED"}, grain_.look.has_value()));
-    occluded.emplace(std::move(program));
+Result<const gl::GlProgram*> CameraPicture::FineProgram(bool occluded, bool inked) {
+  const bool grain = grain_.look.has_value();
+  if (!occluded && !inked) return &programs_.composite[0][grain ? 1 : 0];
+  std::optional<gl::GlProgram>& made =
+      programs_.others[(occluded ? 1U : 0U) | (inked ? 2U : 0U) | (grain ? 4U : 0U)];
+  if (!made) {
+    std::vector<std::string> defines;
+    if (occluded) defines.emplace_back("OCCLUDED");
+    if (inked) defines.emplace_back("INK");
+    PLEINAIR_ASSIGN_OR_RETURN(gl::GlProgram program, CreateComposite(defines, grain));
+    made.emplace(std::move(program));
   }
+  return &*made;
+}
+
+Result<void> CameraPicture::Draw(const RenderTargets& targets, const gl::GlTexture& coarse_ratio,
+                                 const AffectedTiles& tiles, const RealOccluders* occluders,
+                                 const InkImages* ink) {
+  PLEINAIR_ASSIGN_OR_RETURN(const gl::GlProgram* fine,
+                            FineProgram(occluders != nullptr, ink != nullptr));
   if (added_blur_px_ > 0.0) Blur(targets, tiles);
   output_.framebuffer.Bind();
   if (!response_.curve.IsSrgb()) {
@@ -245,9 +257,7 @@ Result<void> CameraPicture::Draw(const RenderTargets& targets, const gl::GlTextu
   positions_.Bind(3);
   no_attributes_.Bind();
   const auto draw = [&](const gl::GlTexture& ratio, bool coarse) {
-    const bool is_occluded = occluders != nullptr && !coarse;
-    const gl::GlProgram& program =
-        is_occluded ? *occluded : programs_.composite[coarse ? 1 : 0][grain_.look ? 1 : 0];
+    const gl::GlProgram& program = coarse ? programs_.composite[1][grain_.look ? 1 : 0] : *fine;
     program.Use();
     if (grain_.look) SetGrain(program);
     ratio.Bind(1);
@@ -256,6 +266,11 @@ Result<void> CameraPicture::Draw(const RenderTargets& targets, const gl::GlTextu
   if (occluders != nullptr) {
     occluders->background().Bind(7);
     occluders->occluders().Bind(8);
+  }
+  if (ink != nullptr) {
+    ink->kept.Bind(9);
+    ink->lit.Bind(10);
+    ink->unlit.Bind(11);
   }
   draw(targets.ratio(), false);
   draw(coarse_ratio, true);

@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "base/image.h"
 #include "compositor/lens/real_occluders.h"
+#include "compositor/passes/ink_images.h"
 #include "compositor/passes/render_camera.h"
 #include "compositor/passes/render_targets.h"
 #include "compositor/picture/camera_look.h"
@@ -44,15 +45,20 @@ class CameraPicture {
   /// Max. distance by which the blur spreads a drawn pixel, along a row or column, in render
   /// pixels. 0 without blur.
   int Spread_px() const { return added_blur_px_ > 0.0 ? 2 * BlurReach_px() : 0; }
+  /// Standard deviation of that blur, render pixels.
+  double Blur_px() const { return added_blur_px_ * supersampling_; }
+  double supersampling() const { return supersampling_; }
   /// Sets the tiles of the render image for the next Draw(). `tiles.all` must have all render
   /// pixels within Spread_px() of a ratio other than 1 or of an object, `tiles.fine` those that
   /// need the full resolution. Returns the tiles that must be drawn at full resolution.
   ImageTiles SetTiles(const AffectedTiles& tiles);
   /// Composes the drawn and resolved `targets` and the coarse ratio. The blur is applied to
   /// `targets` in place, in the tiles with objects and those drawn at full resolution. `occluders`:
-  /// real surfaces that cover objects over a part of the lens; null: none. Errors as Create().
+  /// real surfaces that cover objects over a part of the lens; null: none. `ink`: null, or ink
+  /// whose tiles are drawn at full resolution. Errors as Create().
   Result<void> Draw(const RenderTargets& targets, const gl::GlTexture& coarse_ratio,
-                    const AffectedTiles& tiles, const RealOccluders* occluders = nullptr);
+                    const AffectedTiles& tiles, const RealOccluders* occluders = nullptr,
+                    const InkImages* ink = nullptr);
   /// Binds the camera image, the render pixels' positions in it, and the table of linear light per
   /// pixel value.
   void BindForShading(int background_unit, int positions_unit, int light_unit) const {
@@ -86,7 +92,8 @@ class CameraPicture {
   struct Programs {
     // Second index: without and with grain. First index: fine and coarse.
     std::array<std::array<gl::GlProgram, 2>, 2> composite;
-    std::array<std::optional<gl::GlProgram>, 2> occluded;  // Fine; created on first use.
+    // Fine, created on first use: with occluders, with ink, with grain.
+    std::array<std::optional<gl::GlProgram>, 8> others;
     gl::GlProgram blur, blur_of_ratio;
   };
   /// The sensor's noise.
@@ -101,6 +108,8 @@ class CameraPicture {
   Result<void> CreateResponseTables();
   /// The last program. `defines`: in addition to those that camera and response need.
   Result<gl::GlProgram> CreateComposite(std::vector<std::string> defines, bool grain) const;
+  /// The program for tiles at full resolution.
+  Result<const gl::GlProgram*> FineProgram(bool occluded, bool inked);
   int BlurReach_px() const;
   void Blur(const RenderTargets& targets, const AffectedTiles& tiles) const;
   void SetGrain(const gl::GlProgram& program) const;

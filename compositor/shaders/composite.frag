@@ -5,7 +5,7 @@
 // drawn pixels receive the camera's noise. COARSE_RATIO: the ratio is on the grid of
 // compositor/passes/coarse_ratio.h, and there is no object. SAME_PIXELS: render pixels are camera
 // pixels. OCCLUDED: real surfaces cover objects over a part of the lens
-// (compositor/lens/real_occluders.h).
+// (compositor/lens/real_occluders.h). INK: real surfaces carry ink (compositor/passes/ink_images.h).
 
 #include "compositor/shaders/srgb_transfer.glsl"
 
@@ -49,6 +49,12 @@ layout(binding = 7) uniform sampler2D u_behind_objects;
 layout(binding = 8) uniform sampler2D u_occluders;  // Their light.
 #endif
 
+#ifdef INK
+layout(binding = 9) uniform sampler2D u_ink_kept;  // Render image.
+layout(binding = 10) uniform sampler2D u_ink_lit;
+layout(binding = 11) uniform sampler2D u_ink_unlit;
+#endif
+
 #ifdef GRAIN
 layout(binding = 6) uniform sampler2D u_grain;  // MakeGrain(): one channel common to all, one for each.
 uniform ivec2 u_grain_offset;
@@ -86,13 +92,33 @@ void main() {
   vec4 object = texture(u_objects, at);
   vec3 ratio = texture(u_ratio, at).rgb;
 #endif
-  if (object.a == 0.0 && ratio == vec3(1.0)) {
+  bool untouched = object.a == 0.0 && ratio == vec3(1.0);
+#ifdef INK
+#ifdef SAME_PIXELS
+  vec3 ink_kept = texelFetch(u_ink_kept, pixel, 0).rgb;
+  vec3 ink_lit = texelFetch(u_ink_lit, pixel, 0).rgb;
+  vec3 ink_unlit = texelFetch(u_ink_unlit, pixel, 0).rgb;
+#else
+  vec3 ink_kept = texture(u_ink_kept, at).rgb;
+  vec3 ink_lit = texture(u_ink_lit, at).rgb;
+  vec3 ink_unlit = texture(u_ink_unlit, at).rgb;
+#endif
+  untouched = untouched && ink_kept == vec3(1.0) && ink_lit + ink_unlit == vec3(0.0);
+#endif
+  if (untouched) {
     out_encoded = background;
     return;
   }
-  vec3 behind = LinearFromEncoded(background.rgb);
+  vec3 camera = LinearFromEncoded(background.rgb);
+  vec3 behind = camera;
   vec3 kept = max(ratio - object.a, 0.0);  // Zero where the object covers the pixel.
+#ifdef INK
+  behind = camera * ink_kept + ink_lit;
+#endif
   vec3 light = behind * kept + object.rgb;
+#ifdef INK
+  light += (1.0 - object.a) * ink_unlit;
+#endif
 #ifdef OCCLUDED
   // The frame's light is that of occluder and background. The object replaces the background alone,
   // by its share of the lens.
@@ -104,7 +130,11 @@ void main() {
   light = replaced.a > 0.0 ? with_occluder : light;
 #endif
 #ifdef GRAIN
-  light += MissingGrain(pixel, light, behind, kept);
+#ifdef INK
+  light += MissingGrain(pixel, light, camera, kept * ink_kept);
+#else
+  light += MissingGrain(pixel, light, camera, kept);
+#endif
 #endif
   out_encoded = vec4(EncodedFromLinear(light), 1.0);
 }

@@ -203,9 +203,11 @@ Result<void> SceneSurfaces::SortPhantoms(const SunOnPhantoms& sun) {
   for (SurfaceBuffers& surface : surfaces_) {
     if (!surface.is_phantom()) continue;
     surface.SetIndices(triangles->indices());
+    const std::span ends(triangles->ends());
     sorted.push_back({triangles->indices(),
-                      std::span(triangles->ends()).first(AffectedTriangles::kNothing),
-                      triangles->linear_ratios()});
+                      numbers_all_ ? ends : ends.first(AffectedTriangles::kNothing),
+                      triangles->linear_ratios(),
+                      static_cast<std::size_t>(ends[AffectedTriangles::kSunlitSky]) / 3});
     ++triangles;
   }
   Result<void> set = phantom_buffer_.SetTriangles(sorted);
@@ -213,17 +215,25 @@ Result<void> SceneSurfaces::SortPhantoms(const SunOnPhantoms& sun) {
   return set;
 }
 
-void SceneSurfaces::DrawPhantoms(const gl::GlProgram& program) const {
+void SceneSurfaces::NumberAll(bool all) {
+  if (all == numbers_all_) return;
+  numbers_all_ = all;
+  reduction_.Invalidate();
+}
+
+void SceneSurfaces::DrawPhantoms(const gl::GlProgram& program, Numbered numbered) const {
+  const auto last =
+      numbered == Numbered::kAll ? AffectedTriangles::kNothing : AffectedTriangles::kLinearSky;
   std::size_t phantom = 0;
   for (const SurfaceBuffers& surface : surfaces_) {
     if (!surface.is_phantom()) continue;
     const auto& ends = reduction_.phantoms()[phantom].ends();
     program.Set("u_first_id", phantom_buffer_.first_id(phantom));
     program.Set("u_step", 1);
-    surface.Draw(0, ends[AffectedTriangles::kLinearSky]);
+    surface.Draw(0, ends[last]);
     program.Set("u_first_id", 0);
     program.Set("u_step", 0);
-    surface.Draw(ends[AffectedTriangles::kLinearSky], ends[AffectedTriangles::kNothing]);
+    surface.Draw(ends[last], ends[AffectedTriangles::kNothing]);
     ++phantom;
   }
 }
@@ -248,7 +258,7 @@ Result<void> SceneSurfaces::SortObjects(const glm::vec3& to_sun) {
                             materials_.TintsOf(surface.placed_model(), surface.material()),
                             glm::mat4(placement_.MovedBy(surface.placed_model())));
     }
-    sorted.push_back({triangles->indices(), triangles->ends(), {}});
+    sorted.push_back({triangles->indices(), triangles->ends(), {}, 0});
     ++triangles;
   }
   if (!objects_sorted_) PLEINAIR_RETURN_IF_ERROR(object_buffer_.SetTriangles(sorted));

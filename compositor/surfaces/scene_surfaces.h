@@ -55,9 +55,13 @@ class SceneSurfaces {
   /// Returns the tiles of an image that the sorted surfaces affect. `image`: with
   /// clip_from_position for marker coordinates.
   AffectedTiles TilesOf(const SceneProjection& image) const;
-  /// Draws the triangle numbers of triangles() for the affected triangles of the phantoms.
-  /// `program` with shaders/triangle_id.frag must be in use.
-  void DrawPhantoms(const gl::GlProgram& program) const;
+  /// Sets whether triangles() also has the phantoms' triangles that nothing affects, from the next
+  /// SortPhantoms() on.
+  void NumberAll(bool all);
+  enum class Numbered { kAffected, kAll };
+  /// Draws the triangle numbers of triangles() for the phantoms, with 0 for the triangles that are
+  /// not `numbered`. `program` with shaders/triangle_id.frag must be in use.
+  void DrawPhantoms(const gl::GlProgram& program, Numbered numbered = Numbered::kAffected) const;
   const VisibilityBuffer& triangles() const { return phantom_buffer_; }
   /// Max. of AffectedTriangles::MaxLinearChangeFarFrom() over all phantoms.
   float MaxLinearChangeFarFrom(const glm::vec3& eye_m) const {
@@ -105,6 +109,7 @@ class SceneSurfaces {
   Outlines outlines_;
   // Whether object_buffer_ matches reduction_, and object_materials_ the current placement.
   bool objects_sorted_ = false, objects_placed_ = false;
+  bool numbers_all_ = false;
 };
 
 }  // namespace pleinair::compositor

@@ -98,9 +98,10 @@ Result<void> VisibilityBuffer::SetTriangles(std::span<const SortedTriangles> mes
   linear_ratio_texels_.clear();
   first_ids_.clear();
   for (std::size_t mesh = 0; mesh < meshes.size(); ++mesh) {
-    first_ids_.push_back(static_cast<int>(texels_.size()) + 1);
+    const std::size_t first_triangle = texels_.size();
+    first_ids_.push_back(static_cast<int>(first_triangle) + 1);
     const std::uint32_t first = first_vertices_[mesh];
-    const auto& [indices, ends, linear_ratios] = meshes[mesh];
+    const auto& [indices, ends, linear_ratios, first_ratio] = meshes[mesh];
     std::uint32_t kind = 0;
     for (std::size_t i = 0; i < static_cast<std::size_t>(ends.back()); i += 3) {
       while (i >= static_cast<std::size_t>(ends[kind])) ++kind;
@@ -108,7 +109,7 @@ Result<void> VisibilityBuffer::SetTriangles(std::span<const SortedTriangles> mes
                          kind | components_[first + indices[i]] << kKindBits});
     }
     if (linear_ratios.empty()) continue;
-    linear_ratio_texels_.resize(texels_.size() - linear_ratios.size());
+    linear_ratio_texels_.resize(first_triangle + first_ratio);
     linear_ratio_texels_.insert(linear_ratio_texels_.end(), linear_ratios.begin(),
                                 linear_ratios.end());
   }

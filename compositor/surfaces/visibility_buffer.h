@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -16,8 +17,8 @@ namespace pleinair::compositor {
 struct SortedTriangles {
   std::span<const std::uint32_t> indices;
   std::span<const int> ends;
-  std::span<const LinearShadowRatio>
-      linear_ratios;  ///< Ratios of the last numbered kind, or empty.
+  std::span<const LinearShadowRatio> linear_ratios;  ///< Ratios of one kind, or empty.
+  std::size_t first_ratio = 0;  ///< The triangle that the first of them belongs to.
 };
 
 /// Visibility buffer: triangles in textures, for shaders that read each pixel's triangle number

@@ -41,8 +41,8 @@ const std::map<std::string, Names, std::less<>>& AllowedModules() {
 }
 
 /// The folders inside compositor, lowest first: a folder may include those before it.
-constexpr std::array kCompositorFolders = {"leaf",     "models", "light", "photometry", "surfaces",
-                                           "coverage", "passes", "lens",  "picture"};
+constexpr std::array kCompositorFolders = {"leaf",     "models", "light",  "photometry", "surfaces",
+                                           "coverage", "ink",    "passes", "lens",       "picture"};
 
 /// Index of a file in that order. GLSL twins and plain options lie below all folders; the composer
 /// lies above.

@@ -1,0 +1,298 @@
+#include "compositor/ink/ink_grid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+
+#include "gl/glsl_as_cpp.h"
+
+namespace pleinair::compositor {
+namespace {
+
+namespace glsl {
+using namespace glm;  // NOLINT(google-build-using-namespace): as GLSL has it.
+#include "compositor/shaders/winding.glsl"
+}  // namespace glsl
+
+constexpr std::size_t kMinCells = 256, kMaxCells = std::size_t{1} << 20;
+constexpr float kCellsPerSegment = 4.0F, kMaxCellsAlong = 4096.0F, kMinCell_m = 0.02F;
+constexpr int kMostTopCells = 2;  // Along each side of the coarsest level.
+constexpr int kMostBoxesAlong = 64;
+constexpr int kPlacesOfMean = 4;  // Along each side of a cell.
+
+/// A range of cells, both ends included.
+struct CellRange {
+  glm::ivec2 first, last;
+};
+
+CellRange RangeOf(const InkGrid::Level& level, glm::vec2 origin_m, glm::vec2 low_m,
+                  glm::vec2 high_m) {
+  const auto cell_of = [&](glm::vec2 at) {
+    const glm::vec2 cell = glm::floor((at - origin_m) / level.cell_m);
+    return glm::ivec2(glm::clamp(cell, glm::vec2(0.0F), glm::vec2(level.cells - 1)));
+  };
+  return {cell_of(low_m), cell_of(high_m)};
+}
+
+/// Distance of a segment to a point, squared.
+float DistanceSquared(glm::vec2 from, glm::vec2 to, glm::vec2 at) {
+  const glm::vec2 whole = to - from;
+  const float size = glm::dot(whole, whole);
+  const float share =
+      size > 0.0F ? glm::clamp(glm::dot(at - from, whole) / size, 0.0F, 1.0F) : 0.0F;
+  const glm::vec2 away = at - from - share * whole;
+  return glm::dot(away, away);
+}
+
+/// Length of a segment's part in a box.
+float LengthWithin(glm::vec2 from, glm::vec2 to, glm::vec2 low, glm::vec2 high) {
+  float begin = 0.0F, end = 1.0F;
+  for (int axis = 0; axis < 2; ++axis) {
+    const float way = to[axis] - from[axis];
+    if (std::fabs(way) < 1e-12F) {
+      if (from[axis] < low[axis] || from[axis] >= high[axis]) return 0.0F;
+      continue;
+    }
+    const float a = (low[axis] - from[axis]) / way, b = (high[axis] - from[axis]) / way;
+    begin = std::max(begin, std::min(a, b));
+    end = std::min(end, std::max(a, b));
+  }
+  return std::max(end - begin, 0.0F) * glm::length(to - from);
+}
+
+}  // namespace
+
+InkGrid::InkGrid(std::span<const InkShape> shapes) {
+  glm::vec2 low(std::numeric_limits<float>::max()), high = -low;
+  for (const InkShape& shape : shapes) {
+    first_segments_.push_back(static_cast<std::uint32_t>(segments_.size()));
+    const auto add = [&](glm::vec4 from, glm::vec4 to) {
+      segments_.push_back({from, to});
+      const float half_width_m = 0.5F * shape.pen.width_m;
+      low = glm::min(low, glm::min(glm::vec2(from), glm::vec2(to)) - half_width_m);
+      high = glm::max(high, glm::max(glm::vec2(from), glm::vec2(to)) + half_width_m);
+    };
+    for (const InkSegment& segment : shape.segments) {
+      add({segment.from_m, segment.from_arc_m}, {segment.to_m, segment.to_arc_m});
+    }
+    for (const auto& ring : shape.rings) {
+      for (std::size_t i = 0; i + 1 < ring.size(); ++i) {
+        add({ring[i], 0.0F, 0.0F}, {ring[i + 1], 0.0F, 0.0F});
+      }
+    }
+  }
+  first_segments_.push_back(static_cast<std::uint32_t>(segments_.size()));
+  if (segments_.empty()) return;
+  low_m_ = low;
+  high_m_ = high;
+  const glm::vec2 size_m = high - low;
+  const float wanted = std::clamp(kCellsPerSegment * static_cast<float>(segments_.size()),
+                                  static_cast<float>(kMinCells), static_cast<float>(kMaxCells));
+  float cell_m = std::max({std::sqrt(size_m.x * size_m.y / wanted),
+                           std::max(size_m.x, size_m.y) / kMaxCellsAlong, kMinCell_m});
+  for (;; cell_m *= 2.0F) {
+    AddLevel(shapes, cell_m);
+    const glm::ivec2 cells = levels_.back().cells;
+    if (std::max(cells.x, cells.y) <= kMostTopCells) break;
+  }
+}
+
+void InkGrid::AddLevel(std::span<const InkShape> shapes, float cell_m) {
+  Level level{.cell_m = cell_m,
+              .cells = glm::max(glm::ivec2(glm::ceil((high_m_ - low_m_) / cell_m)), glm::ivec2(1)),
+              .first_cell = static_cast<std::uint32_t>(cells_.size())};
+  std::vector<InCell> found;
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    const auto number = static_cast<std::uint32_t>(i);
+    if (shapes[i].rings.empty()) {
+      AddLine(shapes[i], number, level, &found);
+    } else {
+      AddArea(shapes[i], number, level, &found);
+    }
+  }
+  SortIntoCells(shapes, level, &found);
+  levels_.push_back(level);
+}
+
+/// Adds a shape's parts, cell by cell. `in_cells`: the cell above the part's number.
+void InkGrid::AddParts(std::uint32_t number, std::vector<std::uint64_t>* in_cells,
+                       std::vector<InCell>* found) {
+  std::sort(in_cells->begin(), in_cells->end());
+  for (std::size_t i = 0; i < in_cells->size();) {
+    const auto cell = static_cast<std::uint32_t>((*in_cells)[i] >> 32);
+    InCell in_cell{cell, {number, static_cast<std::uint32_t>(parts_.size()), 0, 0.0F}};
+    for (; i < in_cells->size() && (*in_cells)[i] >> 32 == cell; ++i) {
+      parts_.push_back(static_cast<std::uint32_t>((*in_cells)[i] & 0xFFFFFFFFU));
+      ++in_cell.entry.count;
+    }
+    found->push_back(in_cell);
+  }
+}
+
+void InkGrid::AddLine(const InkShape& shape, std::uint32_t number, const Level& level,
+                      std::vector<InCell>* found) {
+  std::vector<std::uint64_t> in_cells;
+  const float margin_m = 0.5F * level.cell_m + 0.5F * shape.pen.width_m;
+  const float reach_m = margin_m + std::sqrt(0.5F) * level.cell_m;
+  for (std::uint32_t i = first_segments_[number]; i < first_segments_[number + 1]; ++i) {
+    const glm::vec2 from(segments_[i].from), to(segments_[i].to);
+    const CellRange range =
+        RangeOf(level, low_m_, glm::min(from, to) - margin_m, glm::max(from, to) + margin_m);
+    for (int y = range.first.y; y <= range.last.y; ++y) {
+      for (int x = range.first.x; x <= range.last.x; ++x) {
+        const glm::vec2 center = low_m_ + level.cell_m * (glm::vec2(x, y) + 0.5F);
+        if (DistanceSquared(from, to, center) > reach_m * reach_m) continue;
+        in_cells.push_back(static_cast<std::uint64_t>(y * level.cells.x + x) << 32 | i);
+      }
+    }
+  }
+  AddParts(number, &in_cells, found);
+}
+
+void InkGrid::AddArea(const InkShape& shape, std::uint32_t number, const Level& level,
+                      std::vector<InCell>* found) {
+  const std::size_t first_found = found->size();
+  AddLine(shape, number, level, found);  // The edges.
+  glm::vec2 low(std::numeric_limits<float>::max()), high = -low;
+  for (std::uint32_t i = first_segments_[number]; i < first_segments_[number + 1]; ++i) {
+    low = glm::min(low, glm::vec2(segments_[i].from));
+    high = glm::max(high, glm::vec2(segments_[i].from));
+  }
+  const CellRange range = RangeOf(level, low_m_, low - level.cell_m, high + level.cell_m);
+  // Winding numbers along a row change where it crosses edges.
+  std::vector<std::vector<std::pair<float, float>>> crossings(
+      static_cast<std::size_t>(range.last.y - range.first.y + 1));
+  for (std::uint32_t i = first_segments_[number]; i < first_segments_[number + 1]; ++i) {
+    const glm::vec2 from(segments_[i].from), to(segments_[i].to);
+    if (from.y == to.y) continue;
+    const CellRange rows = RangeOf(level, low_m_, glm::min(from, to), glm::max(from, to));
+    for (int y = rows.first.y; y <= rows.last.y; ++y) {
+      const float center_y = low_m_.y + level.cell_m * (static_cast<float>(y) + 0.5F);
+      if ((from.y <= center_y) == (to.y <= center_y)) continue;
+      crossings[static_cast<std::size_t>(y - range.first.y)].emplace_back(
+          from.x + (center_y - from.y) / (to.y - from.y) * (to.x - from.x),
+          to.y > from.y ? -1.0F : 1.0F);
+    }
+  }
+  std::vector<InCell> merged;
+  auto with_edges = found->begin() + static_cast<std::ptrdiff_t>(first_found);
+  for (int y = range.first.y; y <= range.last.y; ++y) {
+    auto& row = crossings[static_cast<std::size_t>(y - range.first.y)];
+    std::sort(row.begin(), row.end());
+    auto next = row.begin();
+    float winding = 0.0F;
+    for (int x = range.first.x; x <= range.last.x; ++x) {
+      const float center_x = low_m_.x + level.cell_m * (static_cast<float>(x) + 0.5F);
+      for (; next != row.end() && next->first <= center_x; ++next) winding += next->second;
+      const auto cell = static_cast<std::uint32_t>(y * level.cells.x + x);
+      InCell in_cell{cell, {number, 0, 0, 0.0F}};
+      const bool has_edges = with_edges != found->end() && with_edges->cell == cell;
+      if (has_edges) in_cell = *with_edges++;
+      in_cell.entry.inside = winding;
+      if (has_edges || winding != 0.0F) merged.push_back(in_cell);
+    }
+  }
+  found->resize(first_found);
+  found->insert(found->end(), merged.begin(), merged.end());
+}
+
+/// Sorts the entries by cell; within one, shapes keep their order.
+void InkGrid::SortIntoCells(std::span<const InkShape> shapes, const Level& level,
+                            std::vector<InCell>* found) {
+  const auto count =
+      static_cast<std::size_t>(level.cells.x) * static_cast<std::size_t>(level.cells.y);
+  std::stable_sort(found->begin(), found->end(),
+                   [](const InCell& a, const InCell& b) { return a.cell < b.cell; });
+  cells_.resize(level.first_cell + count, {0, 0});
+  for (std::size_t i = 0; i < found->size();) {
+    const std::uint32_t cell = (*found)[i].cell;
+    auto& [first, size] = cells_[level.first_cell + cell];
+    first = static_cast<std::uint32_t>(entries_.size());
+    std::size_t parts = 0;
+    for (; i < found->size() && (*found)[i].cell == cell; ++i) {
+      entries_.push_back((*found)[i].entry);
+      parts += (*found)[i].entry.count;
+      ++size;
+    }
+    if (parts > kMaxParts || size > kMaxParts) TakeMean(shapes, level, cell);
+  }
+}
+
+/// Share of a cell that an area covers, from its winding numbers at places.
+float InkGrid::MeanOfArea(const Entry& entry, glm::vec2 low_m, float cell_m) const {
+  const glm::vec2 center = low_m + 0.5F * cell_m;
+  float covered = 0.0F;
+  for (int i = 0; i < kPlacesOfMean * kPlacesOfMean; ++i) {
+    const glm::vec2 place(static_cast<float>(i % kPlacesOfMean) + 0.5F,
+                          static_cast<float>(i / kPlacesOfMean) + 0.5F);
+    float winding = entry.inside;
+    for (std::uint32_t p = entry.first_part; p < entry.first_part + entry.count; ++p) {
+      const Segment& edge = segments_[parts_[p]];
+      winding += glsl::CrossingOfEdge(center, low_m + cell_m / kPlacesOfMean * place,
+                                      glm::vec2(edge.from), glm::vec2(edge.to));
+    }
+    covered += std::min(std::fabs(winding), 1.0F);
+  }
+  return covered / (kPlacesOfMean * kPlacesOfMean);
+}
+
+/// Replaces the entries of the last cell by mean coverages.
+void InkGrid::TakeMean(std::span<const InkShape> shapes, const Level& level, std::uint32_t cell) {
+  auto& [first, size] = cells_[level.first_cell + cell];
+  const auto width = static_cast<std::uint32_t>(level.cells.x);
+  const glm::vec2 low = low_m_ + level.cell_m * glm::vec2(cell % width, cell / width);
+  std::vector<Entry> means;
+  for (std::uint32_t e = first; e < first + size; ++e) {
+    Entry entry = entries_[e];
+    const InkShape& shape = shapes[entry.shape];
+    float covered = 0.0F;
+    if (shape.rings.empty()) {
+      // Footprints of the cells' level have about half a cell.
+      const float width_m =
+          shape.pen.width_m > 0.0F ? shape.pen.width_m : 0.5F * level.cell_m * shape.pen.width_px;
+      for (std::uint32_t p = entry.first_part; p < entry.first_part + entry.count; ++p) {
+        const Segment& segment = segments_[parts_[p]];
+        covered += width_m * LengthWithin(glm::vec2(segment.from), glm::vec2(segment.to), low,
+                                          low + level.cell_m);
+      }
+      covered /= level.cell_m * level.cell_m;
+      const InkPen& pen = shape.pen;
+      if (pen.gap_m > 0.0F) covered *= pen.dash_m / (pen.dash_m + pen.gap_m);
+    } else {
+      covered = MeanOfArea(entry, low, level.cell_m);
+    }
+    if (covered <= 0.0F) continue;
+    means.push_back({entry.shape, 0, kMeanBit, std::min(covered, 1.0F)});
+  }
+  if (means.size() > kMaxShapes) {
+    const auto larger = [](const Entry& a, const Entry& b) { return a.inside > b.inside; };
+    std::nth_element(means.begin(), means.begin() + kMaxShapes, means.end(), larger);
+    means.resize(kMaxShapes);
+    std::sort(means.begin(), means.end(),
+              [](const Entry& a, const Entry& b) { return a.shape < b.shape; });
+  }
+  entries_.resize(first);
+  entries_.insert(entries_.end(), means.begin(), means.end());
+  size = static_cast<std::uint32_t>(means.size());
+}
+
+std::vector<InkGrid::Box> InkGrid::Boxes() const {
+  std::vector<Box> boxes;
+  for (const Level& level : levels_) {
+    if (std::max(level.cells.x, level.cells.y) > kMostBoxesAlong) continue;
+    for (int y = 0; y < level.cells.y; ++y) {
+      for (int x = 0; x < level.cells.x; ++x) {
+        const auto cell = static_cast<std::uint32_t>(y * level.cells.x + x);
+        if (cells_[level.first_cell + cell][1] == 0) continue;
+        const glm::vec2 low = low_m_ + level.cell_m * glm::vec2(x, y);
+        boxes.push_back({low, low + level.cell_m});
+      }
+    }
+    return boxes;
+  }
+  return boxes;
+}
+
+}  // namespace pleinair::compositor

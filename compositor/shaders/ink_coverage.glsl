@@ -1,0 +1,126 @@
+#ifndef COMPOSITOR_INK_COVERAGE_GLSL
+#define COMPOSITOR_INK_COVERAGE_GLSL
+// Share of a pixel that ink covers, in closed form. The pixel's footprint is a parallelogram with
+// the sides `step_x` and `step_y` on the map, seen from above, metres. Across a direction it counts
+// as a box of the same variance. Arithmetic only; also compiled as C++ (gl/glsl_as_cpp.h,
+// tests/compositor/ink/ink_coverage_test.cc).
+
+#include "compositor/shaders/winding.glsl"
+
+// Width of the footprint along a unit vector.
+float FootprintAlong(vec2 direction, vec2 step_x, vec2 step_y) {
+  vec2 sides = vec2(dot(step_x, direction), dot(step_y, direction));
+  return max(length(sides), 1e-6f);
+}
+
+// Integral from 0 to `way` of a line's dashes, which begin at 0; metres.
+float DrawnUpTo(float way, float dash, float gap) {
+  float period = dash + gap;
+  float whole = floor(way / period);
+  return whole * dash + min(way - whole * period, dash);
+}
+
+// Mean of the dashes over `width` around `way`; 1 without gaps.
+float DashCoverage(float way, float width, float dash, float gap) {
+  float period = max(dash + gap, 1e-6f);
+  float drawn = max(dash, 1e-6f);
+  float mean = (DrawnUpTo(way + 0.5f * width, drawn, period - drawn) -
+                DrawnUpTo(way - 0.5f * width, drawn, period - drawn)) / width;
+  return gap > 0.0f ? mean : 1.0f;
+}
+
+// Share of a box of `width`, `distance` away, that a band of `half_width` to both sides covers.
+float BandCoverage(float distance, float half_width, float width) {
+  return clamp((half_width - distance) / width + 0.5f, 0.0f, 1.0f) -
+         clamp((-half_width - distance) / width + 0.5f, 0.0f, 1.0f);
+}
+
+struct LineCoverage {
+  float beside;       // By a segment that the pixel's center lies beside, else 0.
+  float round_capped; // By a segment with round caps.
+  float distance;     // To the segment; large if it is on another surface.
+  float flat_capped;  // By a segment that ends flat.
+};
+
+// Of several segments: no coverage yet.
+LineCoverage NoCoverage() {
+  LineCoverage none;
+  none.beside = 0.0f;
+  none.round_capped = 0.0f;
+  none.distance = 1e30f;
+  none.flat_capped = 0.0f;
+  return none;
+}
+
+// Of one more segment of a line. Round ends count where they are nearest: seen along a long
+// footprint, farther ones would cover too much.
+LineCoverage WithSegment(LineCoverage line, LineCoverage segment) {
+  LineCoverage both;
+  both.beside = max(line.beside, segment.beside);
+  both.round_capped = segment.distance < line.distance ? segment.round_capped : line.round_capped;
+  both.distance = min(line.distance, segment.distance);
+  both.flat_capped = line.flat_capped + segment.flat_capped;
+  return both;
+}
+
+// `place`: the pixel's center. `from`, `to`: the segment; w is the way along its line.
+LineCoverage CoverageOfSegment(vec3 place, vec2 step_x, vec2 step_y, float footprint_height, vec4 from,
+                               vec4 to, float half_width, float dash, float gap) {
+  vec2 at = vec2(place.x, place.y);
+  vec2 start = vec2(from.x, from.y);
+  vec2 whole = vec2(to.x, to.y) - start;
+  float size = length(whole);
+  vec2 along = size > 1e-6f ? whole / size : vec2(1.0f, 0.0f);
+  vec2 across = vec2(-along.y, along.x);
+  float way = dot(at - start, along);
+  float inside = clamp(way, 0.0f, size);
+  vec2 away = at - start - inside * along;
+  float distance = length(away);
+  // Beside the segment, the distance is across it, also where that is 0.
+  bool beside = size > 1e-6f && way >= 0.0f && way <= size;
+  vec2 direction = beside || distance < 1e-9f ? across : away / max(distance, 1e-9f);
+  float share = size > 1e-6f ? inside / size : 0.0f;
+  float footprint = FootprintAlong(along, step_x, step_y);
+  float dashes = DashCoverage(mix(from.w, to.w, share), footprint, dash, gap);
+  // Other surfaces above or below the line show none of it. A segment that climbs a vertical face
+  // has a range of heights.
+  float low = size > 1e-6f ? mix(from.z, to.z, share) : min(from.z, to.z);
+  float high = size > 1e-6f ? low : max(from.z, to.z);
+  float beyond = max(max(low - place.z, place.z - high), 0.0f);
+  bool same = beyond <= 0.03f + 2.0f * distance + footprint_height;
+  float visible = same ? dashes : 0.0f;
+  LineCoverage covered;
+  covered.round_capped =
+      visible * BandCoverage(distance, half_width, FootprintAlong(direction, step_x, step_y));
+  covered.beside = beside ? covered.round_capped : 0.0f;
+  covered.distance = same ? distance : 1e30f;
+  float overlap = clamp(way + 0.5f * footprint, 0.0f, size) - clamp(way - 0.5f * footprint, 0.0f, size);
+  covered.flat_capped = visible * overlap / footprint *
+                        BandCoverage(abs(dot(at - start, across)), half_width,
+                                     FootprintAlong(across, step_x, step_y));
+  return covered;
+}
+
+// From all segments of a line. Lines as wide as the footprint have round joints; of thinner ones,
+// short pieces count by their lengths. `reach`: half of the footprint's extent.
+float CoverageOfLine(LineCoverage line, float half_width, float reach) {
+  float wide = smoothstep(0.5f, 1.0f, half_width / max(reach, 1e-6f));
+  return mix(min(line.flat_capped, 1.0f), max(line.beside, line.round_capped), wide);
+}
+
+// Change of an area's coverage, from the winding number at the footprint's center, by what lies
+// beyond an edge. Areas are to the left of their edges.
+float CoverageBeyondEdge(vec2 place, vec2 step_x, vec2 step_y, vec2 from, vec2 to) {
+  vec2 whole = to - from;
+  float size = max(length(whole), 1e-6f);
+  vec2 along = whole / size;
+  float side = SideOfEdge(from, to, place);
+  float footprint = FootprintAlong(along, step_x, step_y);
+  float way = dot(place - from, along);
+  float overlap = clamp(way + 0.5f * footprint, 0.0f, size) - clamp(way - 0.5f * footprint, 0.0f, size);
+  float across = FootprintAlong(vec2(-along.y, along.x), step_x, step_y);
+  float beyond = clamp(0.5f - abs(side) / size / across, 0.0f, 1.0f) * overlap / footprint;
+  return side >= 0.0f ? -beyond : beyond;
+}
+
+#endif

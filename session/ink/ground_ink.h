@@ -1,0 +1,36 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "base/error.h"
+#include "base/vector.h"
+#include "compositor/composer.h"
+#include "compositor/ink/ink_shape.h"
+#include "compositor/models/placed_model.h"
+
+namespace pleinair::session {
+
+/// Returns the ink that lies on phantoms at a heading, for Composer::SetInk(). `phantoms`: marker
+/// coordinates. `marker_from_world`: by the marker's heading.
+using InkSource = std::function<Result<std::vector<compositor::InkShape>>(
+    std::span<const compositor::PlacedModel> phantoms, const Mat3& marker_from_world)>;
+
+/// The ink on the ground of a scene. It is laid anew when the marker's heading changes, since
+/// phantoms turn with the marker and the map does not.
+class GroundInk {
+ public:
+  void SetSource(InkSource source);
+  bool has_source() const { return source_ != nullptr; }
+  /// Lays the ink where it has to lie. Errors: those of the source and of Composer::SetInk().
+  Result<void> Update(std::span<const compositor::PlacedModel> phantoms,
+                      const Mat3& marker_from_world, compositor::Composer* composer);
+
+ private:
+  InkSource source_;
+  std::optional<Mat3> laid_at_;  // The marker_from_world of the ink in use.
+};
+
+}  // namespace pleinair::session
