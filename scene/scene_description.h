@@ -12,6 +12,7 @@
 #include "base/vector.h"
 #include "scene/camera_description.h"
 #include "scene/described_surface.h"
+#include "scene/drape_description.h"
 #include "scene/leaf_description.h"
 #include "scene/trajectory_description.h"
 #include "sky/clouds/cloud_layer.h"
@@ -31,8 +32,9 @@ struct CloudDescription {
 struct PlaceTime {
   double latitude_deg = 0.0;   ///< North positive, -90…90.
   double longitude_deg = 0.0;  ///< East positive, -180…180.
-  double height_m = 0.0;       ///< Above sea level.
-  UtcTime start;               ///< UTC of the first frame.
+  double height_m = 0.0;       ///< Above sea level, or above the ellipsoid of WGS 84.
+  bool above_ellipsoid = false;
+  UtcTime start;  ///< UTC of the first frame.
 };
 
 /// The reference marker of the scene, or the image target used in its place.
@@ -52,6 +54,8 @@ struct MarkerDescription {
   double albedo_black = 0.04;  ///< Diffuse reflectance of printed black.
   double albedo_white = 0.80;  ///< Diffuse reflectance of the paper.
   double board_size_m = 0.0;   ///< Edge of the white margin around the black square, metres.
+  Vec3 offset_m;               ///< Of its origin from [place]: east, north, up.
+  double position_sd_m = 0.0;  ///< Of that origin; reported, not used.
 };
 
 /// Where the centre of a marker is in the coordinates of the reference marker.
@@ -75,11 +79,16 @@ enum class Shading { kFromFile, kFlat, kSmooth };
 /// at its lowest height.
 enum class ModelOrigin { kFile, kBottomCentre };
 
-/// A model placed in marker coordinates: x_marker = R scale x_model + translation. x_model is
-/// in metres, relative to `origin`, and upright on the marker.
-struct ModelReference {
+/// What a model is made of.
+struct ModelSource {
   std::filesystem::path file;
   std::optional<DescribedSurface> surface;  ///< In place of the file.
+  std::string name;                         ///< Of a phantom, for drapes; empty: not stated.
+};
+
+/// A model placed in marker coordinates: x_marker = R scale x_model + translation. x_model is
+/// in metres, relative to `origin`, and upright on the marker.
+struct ModelReference : ModelSource {
   Shading shading = Shading::kFromFile;
   /// Axis of the file that points up. Unset: y for glTF; OBJ has the axes of the marker.
   std::optional<UpAxis> up;
@@ -96,18 +105,23 @@ struct ModelReference {
   double scale = 1.0;  ///< Enlarges the model about its origin.
 };
 
+/// What a scene contains.
+struct SceneContent {
+  std::vector<ModelReference> phantoms;  ///< Proxy geometry of real surfaces, see
+                                         ///< docs/conventions.md.
+  std::vector<ModelReference> objects;   ///< Virtual objects.
+  std::vector<LeafDescription> leaves;   ///< In place of materials of the objects.
+  std::vector<DrapeDescription> drapes;  ///< Maps on the phantoms.
+};
+
 /// The user's description of the scene: everything that the compositor may use. Holds no ground
 /// truth.
-struct SceneDescription {
+struct SceneDescription : SceneContent {
   std::filesystem::path file;  ///< The file it was read from, for messages.
   PlaceTime place_time;
   MarkerDescription marker;
   std::vector<AnchorDescription> anchors;
   std::optional<TrajectoryDescription> trajectory;
-  std::vector<ModelReference> phantoms;  ///< Proxy geometry of real surfaces, see
-                                         ///< docs/conventions.md.
-  std::vector<ModelReference> objects;   ///< Virtual objects.
-  std::vector<LeafDescription> leaves;   ///< In place of materials of the objects.
   Cloudiness cloudiness = Cloudiness::kClear;
   CloudDescription clouds;
   std::optional<double> turbidity;  ///< Overrides the default of the cloudiness.

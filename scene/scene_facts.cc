@@ -12,12 +12,6 @@
 namespace pleinair::scene {
 namespace {
 
-// Uses `fallback` if `fact` is unset.
-template <typename T>
-void Fill(std::optional<T>& fact, const std::optional<T>& fallback) {
-  if (!fact) fact = fallback;
-}
-
 bool Within(double value, double low, double high) {
   return std::isfinite(value) && value >= low && value <= high;
 }
@@ -45,6 +39,10 @@ constexpr FactRange kMagneticHeading{"marker.heading_magnetic_deg", -360.0, 360.
 // From a pinhead to a sports field.
 constexpr FactRange kSize{"marker.size_m", 1e-4, 1e3, "the edge of the outer black square, metres"};
 constexpr FactRange kId{"marker.id", 0.0, 1e9, "marker numbers count from 0"};
+constexpr FactRange kOffset{"marker.offset_m", -10000.0, 10000.0,
+                            "metres from [place] to the marker's origin: east, north, up"};
+constexpr FactRange kPositionSd{"marker.position_sd_m", 0.0, 1000.0,
+                                "the standard deviation of that place, metres"};
 constexpr FactRange kTurbidity{"turbidity", 1.0, 64.0,
                                "2 is a clear sky, 3 an ordinary one, 6 haze"};
 
@@ -114,6 +112,8 @@ Result<MarkerDescription> CompleteMarker(const MarkerFacts& facts, const PlaceTi
   marker.size_m = facts.size_m.value_or(0.0);
   if (facts.target) marker.target = *facts.target;
   marker.upright = facts.upright.value_or(false);
+  marker.offset_m = facts.origin.offset_m.value_or(Vec3{});
+  marker.position_sd_m = facts.origin.position_sd_m.value_or(0.0);
   marker.albedo_black = facts.albedo_black.value_or(marker.albedo_black);
   marker.albedo_white = facts.albedo_white.value_or(marker.albedo_white);
   if (!Within(marker.albedo_black, 0.0, 1.0) || !Within(marker.albedo_white, 0.0, 1.0) ||
@@ -141,7 +141,8 @@ Result<PlaceTime> CompletePlaceTime(const PlaceTimeFacts& facts, const std::stri
                       "add its time as RFC 3339, for example 2025-09-14T11:05:00Z");
   }
   const double height_m = facts.height_m.value_or(0.0);
-  return PlaceTime{*facts.latitude_deg, *facts.longitude_deg, height_m, *facts.start};
+  return PlaceTime{*facts.latitude_deg, *facts.longitude_deg, height_m,
+                   facts.above_ellipsoid.value_or(false), *facts.start};
 }
 
 constexpr const char* kOurFamily = "sg";  // Default family of a marker with anchors.
@@ -289,34 +290,12 @@ Result<void> CheckRanges(const SceneFacts& facts, const std::string& name) {
   PLEINAIR_RETURN_IF_ERROR(CheckFact(facts.marker.heading_magnetic_deg, kMagneticHeading, name));
   PLEINAIR_RETURN_IF_ERROR(CheckFact(facts.marker.size_m, kSize, name));
   PLEINAIR_RETURN_IF_ERROR(CheckFact(facts.marker.id, kId, name));
+  PLEINAIR_RETURN_IF_ERROR(CheckFact(facts.marker.origin.position_sd_m, kPositionSd, name));
+  const Vec3 offset_m = facts.marker.origin.offset_m.value_or(Vec3{});
+  for (const double metres : {offset_m.x, offset_m.y, offset_m.z}) {
+    PLEINAIR_RETURN_IF_ERROR(CheckFact(std::optional(metres), kOffset, name));
+  }
   return CheckFact(facts.turbidity, kTurbidity, name);
-}
-
-SceneFacts WithFallback(SceneFacts facts, const SceneFacts& fallback) {
-  Fill(facts.place_time.latitude_deg, fallback.place_time.latitude_deg);
-  Fill(facts.place_time.longitude_deg, fallback.place_time.longitude_deg);
-  Fill(facts.place_time.height_m, fallback.place_time.height_m);
-  Fill(facts.place_time.start, fallback.place_time.start);
-  // The margin's size and the marker's identity describe one sheet of paper, so they are taken over
-  // only together with the marker's size.
-  if (!facts.marker.size_m && !facts.marker.target) {
-    Fill(facts.marker.target, fallback.marker.target);
-    Fill(facts.marker.size_m, fallback.marker.size_m);
-    Fill(facts.marker.board_size_m, fallback.marker.board_size_m);
-    Fill(facts.marker.family, fallback.marker.family);
-    Fill(facts.marker.id, fallback.marker.id);
-    Fill(facts.marker.version, fallback.marker.version);
-    Fill(facts.marker.albedo_black, fallback.marker.albedo_black);
-    Fill(facts.marker.albedo_white, fallback.marker.albedo_white);
-  }
-  if (!facts.marker.heading_magnetic_deg) {
-    Fill(facts.marker.heading_deg, fallback.marker.heading_deg);
-  }
-  Fill(facts.marker.upright, fallback.marker.upright);
-  Fill(facts.camera.recorded_lens, fallback.camera.recorded_lens);
-  Fill(facts.cloudiness, fallback.cloudiness);
-  if (facts.camera.response.empty()) facts.camera.response = fallback.camera.response;
-  return facts;
 }
 
 Result<SceneDescription> CompleteScene(const SceneFacts& facts, const std::filesystem::path& file) {
@@ -336,11 +315,9 @@ Result<SceneDescription> CompleteScene(const SceneFacts& facts, const std::files
     scene.marker.target = (file.parent_path() / *scene.marker.target).lexically_normal();
   }
   PLEINAIR_RETURN_IF_ERROR(CheckLight(facts, name));
-  scene.phantoms = facts.phantoms;
+  static_cast<SceneContent&>(scene) = facts;
   PLEINAIR_ASSIGN_OR_RETURN(auto ground, CompleteGround(facts, scene.marker.upright, name));
   if (ground) scene.phantoms.push_back(*std::move(ground));
-  scene.objects = facts.objects;
-  scene.leaves = facts.leaves;
   for (std::vector<ModelReference>* models : {&scene.phantoms, &scene.objects}) {
     for (ModelReference& model : *models) {
       PLEINAIR_RETURN_IF_ERROR(CheckPlacement(model, name));
@@ -348,6 +325,7 @@ Result<SceneDescription> CompleteScene(const SceneFacts& facts, const std::files
       model.file = (file.parent_path() / model.file).lexically_normal();
     }
   }
+  PLEINAIR_RETURN_IF_ERROR(CompleteDrapes(file.parent_path(), &scene));
   scene.cloudiness = facts.cloudiness.value_or(Cloudiness::kClear);
   scene.clouds.layers = facts.cloud_layers;
   if (!scene.clouds.layers.empty()) {
@@ -377,6 +355,9 @@ Result<void> CheckModelsExist(const SceneDescription& scene) {
       if (model.surface) continue;
       PLEINAIR_RETURN_IF_ERROR(check("model", model.file));
     }
+  }
+  for (const DrapeDescription& drape : scene.drapes) {
+    PLEINAIR_RETURN_IF_ERROR(check("map", drape.source.file));
   }
   return scene.marker.target ? check("target", *scene.marker.target) : Result<void>();
 }

@@ -17,6 +17,13 @@ namespace pleinair::scene {
 struct PlaceTimeFacts {
   std::optional<double> latitude_deg, longitude_deg, height_m;
   std::optional<UtcTime> start;
+  std::optional<bool> above_ellipsoid;
+};
+
+/// Where the origin of the marker is from the place, for MarkerDescription.
+struct OriginFacts {
+  std::optional<Vec3> offset_m;
+  std::optional<double> position_sd_m;
 };
 
 /// Marker in one scene file, for MarkerDescription.
@@ -29,6 +36,7 @@ struct MarkerFacts {
   std::optional<double> heading_magnetic_deg;
   std::optional<double> albedo_black, albedo_white;
   std::optional<bool> upright;
+  OriginFacts origin;
 };
 
 /// Further marker in one scene file, for AnchorDescription.
@@ -48,15 +56,13 @@ struct GroundFacts {
 };
 
 /// Content of one scene file. Absent values are unset, so that a hand-written scene.toml can leave
-/// to the recording what the recording already has.
-struct SceneFacts {
+/// to the recording what the recording already has. Paths of its content are as in the file,
+/// relative to the scene's folder.
+struct SceneFacts : SceneContent {
   PlaceTimeFacts place_time;
   MarkerFacts marker;
   std::vector<AnchorFacts> anchors;
   std::optional<TrajectoryDescription> trajectory;
-  std::vector<ModelReference> phantoms, objects;  ///< Paths as in the file, relative to the scene's
-                                                  ///< folder.
-  std::vector<LeafDescription> leaves;
   std::vector<clouds::CloudLayer> cloud_layers;
   GroundFacts ground;
   std::optional<Cloudiness> cloudiness;

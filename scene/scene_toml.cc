@@ -8,6 +8,7 @@
 #include "scene/cloudiness.h"
 #include "scene/scene_facts.h"
 #include "scene/toml_clouds.h"
+#include "scene/toml_drapes.h"
 #include "scene/toml_leaves.h"
 #include "scene/toml_lens.h"
 #include "scene/toml_surfaces.h"
@@ -43,12 +44,17 @@ Result<std::optional<UtcTime>> ReadTime(const TomlTable& table, const char* key)
 }
 
 Result<void> ReadPlace(const TomlTable& place, PlaceTimeFacts* facts) {
-  PLEINAIR_RETURN_IF_ERROR(
-      place.AllowOnly({"name", "latitude_deg", "longitude_deg", "height_m", "time"}));
+  PLEINAIR_RETURN_IF_ERROR(place.AllowOnly(
+      {"name", "latitude_deg", "longitude_deg", "height_m", "height_reference", "time"}));
   PLEINAIR_RETURN_IF_ERROR(place.Text("name"));
   PLEINAIR_ASSIGN_OR_RETURN(facts->latitude_deg, place.Number("latitude_deg"));
   PLEINAIR_ASSIGN_OR_RETURN(facts->longitude_deg, place.Number("longitude_deg"));
   PLEINAIR_ASSIGN_OR_RETURN(facts->height_m, place.Number("height_m"));
+  PLEINAIR_ASSIGN_OR_RETURN(const auto reference, place.Text("height_reference"));
+  if (reference && *reference != "sea" && *reference != "ellipsoid") {
+    return place.Fail("height_reference", "is not known", "known are sea and ellipsoid");
+  }
+  if (reference) facts->above_ellipsoid = *reference == "ellipsoid";
   PLEINAIR_ASSIGN_OR_RETURN(const std::optional<UtcTime> time, ReadTime(place, "time"));
   if (time && facts->start) {
     return place.Fail("time", "is given here and at the top", "keep one of them");
@@ -58,9 +64,10 @@ Result<void> ReadPlace(const TomlTable& place, PlaceTimeFacts* facts) {
 }
 
 Result<void> ReadMarker(const TomlTable& marker, MarkerFacts* facts) {
-  PLEINAIR_RETURN_IF_ERROR(marker.AllowOnly(
-      {"family", "target", "id", "version", "size_m", "size_mm", "board_size_m", "board_size_mm",
-       "heading_deg", "heading_magnetic_deg", "upright", "albedo_black", "albedo_white"}));
+  PLEINAIR_RETURN_IF_ERROR(
+      marker.AllowOnly({"family", "target", "id", "version", "size_m", "size_mm", "board_size_m",
+                        "board_size_mm", "heading_deg", "heading_magnetic_deg", "upright",
+                        "albedo_black", "albedo_white", "offset_m", "position_sd_m"}));
   PLEINAIR_ASSIGN_OR_RETURN(facts->family, marker.Text("family"));
   PLEINAIR_ASSIGN_OR_RETURN(facts->target, marker.Text("target"));
   PLEINAIR_ASSIGN_OR_RETURN(facts->id, marker.Integer("id"));
@@ -70,6 +77,8 @@ Result<void> ReadMarker(const TomlTable& marker, MarkerFacts* facts) {
   PLEINAIR_ASSIGN_OR_RETURN(facts->heading_deg, marker.Number("heading_deg"));
   PLEINAIR_ASSIGN_OR_RETURN(facts->heading_magnetic_deg, marker.Number("heading_magnetic_deg"));
   PLEINAIR_ASSIGN_OR_RETURN(facts->upright, marker.Flag("upright"));
+  PLEINAIR_ASSIGN_OR_RETURN(facts->origin.offset_m, marker.Triple("offset_m"));
+  PLEINAIR_ASSIGN_OR_RETURN(facts->origin.position_sd_m, marker.Number("position_sd_m"));
   PLEINAIR_ASSIGN_OR_RETURN(facts->albedo_black, marker.Number("albedo_black"));
   PLEINAIR_ASSIGN_OR_RETURN(facts->albedo_white, marker.Number("albedo_white"));
   return {};
@@ -95,7 +104,7 @@ Result<SceneFacts> ReadScene(const TomlTable& scene) {
   PLEINAIR_RETURN_IF_ERROR(
       scene.AllowOnly({"time", "cloudiness", "turbidity", "exposure_gain", "camera_response",
                        "place", "marker", "anchor", "ground", "box", "wall", "phantom", "object",
-                       "leaf", "trajectory", "lens", "cloud_layer"}));
+                       "leaf", "trajectory", "lens", "cloud_layer", "drape"}));
   SceneFacts facts;
   PLEINAIR_ASSIGN_OR_RETURN(facts.place_time.start, ReadTime(scene, "time"));
   PLEINAIR_ASSIGN_OR_RETURN(const std::vector<TomlTable> places, scene.Tables("place"));
@@ -115,6 +124,7 @@ Result<SceneFacts> ReadScene(const TomlTable& scene) {
   PLEINAIR_RETURN_IF_ERROR(ReadGround(scene, &facts.ground));
   PLEINAIR_ASSIGN_OR_RETURN(facts.objects, ReadModels(scene, "object"));
   PLEINAIR_ASSIGN_OR_RETURN(facts.leaves, ReadLeaves(scene));
+  PLEINAIR_ASSIGN_OR_RETURN(facts.drapes, ReadDrapes(scene));
   PLEINAIR_ASSIGN_OR_RETURN(facts.cloud_layers, ReadCloudLayers(scene));
   PLEINAIR_ASSIGN_OR_RETURN(const std::optional<std::string> sky, scene.Text("cloudiness"));
   if (sky) {

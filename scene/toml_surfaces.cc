@@ -63,11 +63,16 @@ Result<void> ReadAnimation(const TomlTable& table, ModelReference* model) {
 Result<ModelReference> ReadModel(const TomlTable& table, const TomlTable& scene, const char* key) {
   PLEINAIR_RETURN_IF_ERROR(
       table.AllowOnly({"file", "shading", "up", "unit", "origin", "animation", "animation_start_s",
-                       "loop", "translation_m", "rotation_deg", "scale"}));
+                       "loop", "translation_m", "rotation_deg", "scale", "name"}));
   if (key == std::string_view("phantom") && table.Find("loop") != nullptr) {
     return table.Fail("loop", "is for objects", "a phantom stands still: leave loop out");
   }
+  if (key == std::string_view("object") && table.Find("name") != nullptr) {
+    return table.Fail("name", "is for phantoms", "leave name out: nothing is draped on objects");
+  }
   ModelReference model;
+  PLEINAIR_ASSIGN_OR_RETURN(const std::optional<std::string> name, table.Text("name"));
+  model.name = name.value_or("");
   PLEINAIR_ASSIGN_OR_RETURN(const std::optional<std::string> file, table.Text("file"));
   if (!file || file->empty()) return scene.Fail(key, "has no file", "add file = \"name.obj\"");
   model.file = *file;

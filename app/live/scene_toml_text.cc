@@ -76,8 +76,10 @@ void AddSurface(const scene::ModelReference& model, std::string* text) {
 void AddModel(const char* table, const scene::ModelReference& model, const fs::path& folder,
               std::string* text) {
   if (model.surface) return AddSurface(model, text);
-  *text += fmt::format("\n[[{}]]\nfile = {}\nshading = \"{}\"\n", table, Beside(folder, model.file),
-                       Word(model.shading));
+  *text += fmt::format("\n[[{}]]\n", table);
+  if (!model.name.empty()) *text += fmt::format("name = {}\n", Quoted(model.name));
+  *text +=
+      fmt::format("file = {}\nshading = \"{}\"\n", Beside(folder, model.file), Word(model.shading));
   if (model.up) *text += fmt::format("up = \"{}\"\n", *model.up == UpAxis::kY ? "y" : "z");
   if (model.unit_m) {
     *text += fmt::format("unit = \"{}\"\n", scene::NameOfUnit(*model.unit_m));
@@ -90,6 +92,29 @@ void AddModel(const char* table, const scene::ModelReference& model, const fs::p
   }
   *text += fmt::format("translation_m = {}\nrotation_deg = {}\nscale = {}\n",
                        Vector(model.translation_m), Vector(model.rotation_deg), model.scale);
+}
+
+void AddDrape(const scene::DrapeDescription& drape, const fs::path& folder, std::string* text) {
+  const scene::InkDescription& ink = drape.ink;
+  *text += fmt::format("\n[[drape]]\nfile = {}\n", Beside(folder, drape.source.file));
+  for (const auto& [key, value] : {std::pair("layer", &drape.source.layer),
+                                   {"where", &drape.source.where},
+                                   {"crs", &drape.source.crs},
+                                   {"color_field", &ink.color_field},
+                                   {"height_field", &drape.height_field}}) {
+    if (!value->empty()) *text += fmt::format("{} = {}\n", key, Quoted(*value));
+  }
+  *text +=
+      fmt::format("{} = {}\n", ink.width_in_px ? "line_width_px" : "line_width_m", ink.line_width);
+  if (ink.color_field.empty()) {
+    *text += fmt::format("color = \"{}\"\n", scene::HexColor(ink.color));
+  }
+  if (ink.fill) *text += fmt::format("fill = \"{}\"\n", scene::HexColor(*ink.fill));
+  if (ink.dash_m) *text += fmt::format("dash_m = [{}, {}]\n", (*ink.dash_m)[0], (*ink.dash_m)[1]);
+  if (drape.height_field != scene::kOwnHeights) *text += fmt::format("on = {}\n", Quoted(drape.on));
+  *text += fmt::format(
+      "opacity = {}\nblend = \"{}\"\noffset_m = {}\nhidden = \"{}\"\nlive = \"{}\"\n", ink.opacity,
+      NameOf(ink.blend), drape.offset_m, NameOf(ink.hidden), NameOf(drape.search));
 }
 
 std::string ContentsText(const scene::LeafContents& contents) {
@@ -138,6 +163,7 @@ std::string SceneToml(const scene::SceneDescription& scene, UtcTime start, const
   text += fmt::format("\n[place]\nlatitude_deg = {}\nlongitude_deg = {}\nheight_m = {}\n",
                       scene.place_time.latitude_deg, scene.place_time.longitude_deg,
                       scene.place_time.height_m);
+  if (scene.place_time.above_ellipsoid) text += "height_reference = \"ellipsoid\"\n";
   text += "\n[marker]\n";
   if (marker.family) text += fmt::format("family = {}\n", Quoted(*marker.family));
   if (marker.id) text += fmt::format("id = {}\n", *marker.id);
@@ -151,9 +177,14 @@ std::string SceneToml(const scene::SceneDescription& scene, UtcTime start, const
   text += fmt::format("heading_deg = {}\nupright = {}\nalbedo_black = {}\nalbedo_white = {}\n",
                       marker.heading.value() / kRadiansPerDegree, marker.upright,
                       marker.albedo_black, marker.albedo_white);
+  if (marker.offset_m != Vec3{}) text += fmt::format("offset_m = {}\n", Vector(marker.offset_m));
+  if (marker.position_sd_m > 0.0) {
+    text += fmt::format("position_sd_m = {}\n", marker.position_sd_m);
+  }
   for (const auto& phantom : scene.phantoms) AddModel("phantom", phantom, folder, &text);
   for (const auto& object : scene.objects) AddModel("object", object, folder, &text);
   for (const auto& leaf : scene.leaves) AddLeaf(leaf, folder, &text);
+  for (const auto& drape : scene.drapes) AddDrape(drape, folder, &text);
   for (const auto& layer : scene.clouds.layers) text += "\n" + CloudLayerToml(layer);
   return text;
 }
