@@ -26,6 +26,9 @@ struct Canvas {
   LensPass lens;
   CameraPicture picture;
 
+  /// The ink of the current frame; null: there is none.
+  const InkImages* DrawnInk() const { return ink.kept ? &ink : nullptr; }
+
   /// For objects of `materials`. Errors as RenderTargets::Create() and CameraPicture::Create().
   static Result<Canvas> Create(const CameraModel& camera, const ComposerOptions& options,
                                const SceneMaterials& materials);

@@ -242,6 +242,7 @@ Result<void> GlComposer::SetInk(std::span<const InkShape> shapes, const Mat3& ma
   PLEINAIR_RETURN_IF_ERROR(context_.MakeCurrent());
   PLEINAIR_RETURN_IF_ERROR(passes_.ink.SetShapes(shapes, marker_from_world));
   surfaces_.NumberAll(!passes_.ink.empty());
+  if (passes_.ink.empty()) canvas_.ink = {};
   return {};
 }
 
@@ -339,16 +340,12 @@ AffectedTiles GlComposer::DrawCoarse(const SurfacePrograms& programs, const shad
   light_.BindShade();
   if (options_.show_shadow_maps) tiles.all.IncludeAll();
   if (frame.linear_needs_airlight) tiles.fine.Include(tiles.all);
-  if (!passes_.ink.empty()) {
-    tiles.all.Include(canvas_.ink.tiles);
-    tiles.fine.Include(canvas_.ink.tiles);
-  }
   const ImageTiles coarse = tiles.all.Without(tiles.fine);
   if (coarse.Count() > 0) {
     tiles.fine.Include(
         canvas_.coarse.Draw(passes_.ratio, surfaces_, programs, view, frame, coarse));
   }
-  return {tiles.objects, canvas_.picture.SetTiles(tiles), tiles.all};
+  return {tiles.objects, canvas_.picture.SetTiles(tiles, canvas_.DrawnInk()), tiles.all};
 }
 
 /// Brings shapes and shadow maps up to date, and classifies the surfaces by them.
@@ -415,8 +412,7 @@ Result<RgbImage> GlComposer::Compose(CameraImageView image,
                        }};
   PLEINAIR_ASSIGN_OR_RETURN(const RealOccluders* occluders, lens_.Draw(seen, frame, view, &tiles));
   PLEINAIR_RETURN_IF_ERROR(canvas_.picture.Draw(canvas_.targets, canvas_.coarse.ratio(), tiles,
-                                                occluders,
-                                                passes_.ink.empty() ? nullptr : &canvas_.ink));
+                                                occluders, canvas_.DrawnInk()));
   if (options_.show_shadow_maps && light_.HasSun()) {
     PLEINAIR_RETURN_IF_ERROR(DrawDebugView(view));
   }

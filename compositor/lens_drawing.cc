@@ -144,10 +144,9 @@ Result<const RealOccluders*> LensDrawing::Draw(const LensScene& scene, const Fra
   *tiles = scene.surfaces.TilesOf(ProjectionOf(
       canvas.camera, view, canvas.picture.Spread_px() + canvas.places.Spread_px() + spread_px));
   if (scene.includes_all) tiles->all.IncludeAll();
-  if (canvas.ink.kept) tiles->all.Include(canvas.ink.tiles);
   // Nothing is interpolated from the coarse ratio, which is not blurred.
   tiles->fine.Include(tiles->all);
-  tiles->fine = canvas.picture.SetTiles(*tiles);
+  tiles->fine = canvas.picture.SetTiles(*tiles, canvas.DrawnInk());
   tiles->objects = tiles->fine;
   const std::vector<PixelRect> within = tiles->fine.Rectangles();
   if (way.by_layers) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "gl/glsl_as_cpp.h"
@@ -17,7 +18,7 @@ using namespace glm;  // NOLINT(google-build-using-namespace): as GLSL has it.
 }  // namespace glsl
 
 constexpr std::size_t kMinCells = 256, kMaxCells = std::size_t{1} << 20;
-constexpr float kCellsPerSegment = 4.0F, kMaxCellsAlong = 4096.0F, kMinCell_m = 0.02F;
+constexpr float kCellsPerSegment = 2.0F, kMaxCellsAlong = 4096.0F, kMinCell_m = 0.02F;
 constexpr int kMostTopCells = 2;  // Along each side of the coarsest level.
 constexpr int kMostBoxesAlong = 64;
 constexpr int kPlacesOfMean = 4;  // Along each side of a cell.
@@ -62,6 +63,17 @@ float LengthWithin(glm::vec2 from, glm::vec2 to, glm::vec2 low, glm::vec2 high) 
   return std::max(end - begin, 0.0F) * glm::length(to - from);
 }
 
+/// Keeps the shapes with the largest coverage.
+void KeepLargest(std::vector<InkGrid::Entry>* means) {
+  if (means->size() <= InkGrid::kMaxShapes) return;
+  const auto middle = means->begin() + InkGrid::kMaxShapes;
+  std::nth_element(means->begin(), middle, means->end(),
+                   [](const auto& a, const auto& b) { return a.inside > b.inside; });
+  means->erase(middle, means->end());
+  std::sort(means->begin(), means->end(),
+            [](const auto& a, const auto& b) { return a.shape < b.shape; });
+}
+
 }  // namespace
 
 InkGrid::InkGrid(std::span<const InkShape> shapes) {
@@ -100,20 +112,39 @@ InkGrid::InkGrid(std::span<const InkShape> shapes) {
 }
 
 void InkGrid::AddLevel(std::span<const InkShape> shapes, float cell_m) {
-  Level level{.cell_m = cell_m,
-              .cells = glm::max(glm::ivec2(glm::ceil((high_m_ - low_m_) / cell_m)), glm::ivec2(1)),
-              .first_cell = static_cast<std::uint32_t>(cells_.size())};
+  const Level level{
+      .cell_m = cell_m,
+      .cells = glm::max(glm::ivec2(glm::ceil((high_m_ - low_m_) / cell_m)), glm::ivec2(1)),
+      .first_cell = static_cast<std::uint32_t>(cells_.size())};
+  FindCrowdedChildren(level);
   std::vector<InCell> found;
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     const auto number = static_cast<std::uint32_t>(i);
     if (shapes[i].rings.empty()) {
       AddLine(shapes[i], number, level, &found);
     } else {
-      AddArea(shapes[i], number, level, &found);
+      AddArea(number, level, &found);
     }
   }
-  SortIntoCells(shapes, level, &found);
+  SortIntoCells(shapes, level, found);
   levels_.push_back(level);
+}
+
+/// Marks the cells of a new level whose lists would be longer than those of a crowded cell below.
+void InkGrid::FindCrowdedChildren(const Level& level) {
+  std::vector<bool> crowded(
+      static_cast<std::size_t>(level.cells.x) * static_cast<std::size_t>(level.cells.y), false);
+  if (!levels_.empty()) {
+    const glm::ivec2 cells = levels_.back().cells;
+    for (int y = 0; y < cells.y; ++y) {
+      for (int x = 0; x < cells.x; ++x) {
+        if (crowded_[static_cast<std::size_t>(y * cells.x + x)]) {
+          crowded[static_cast<std::size_t>(y / 2 * level.cells.x + x / 2)] = true;
+        }
+      }
+    }
+  }
+  crowded_ = std::move(crowded);
 }
 
 /// Adds a shape's parts, cell by cell. `in_cells`: the cell above the part's number.
@@ -142,6 +173,7 @@ void InkGrid::AddLine(const InkShape& shape, std::uint32_t number, const Level& 
         RangeOf(level, low_m_, glm::min(from, to) - margin_m, glm::max(from, to) + margin_m);
     for (int y = range.first.y; y <= range.last.y; ++y) {
       for (int x = range.first.x; x <= range.last.x; ++x) {
+        if (crowded_[static_cast<std::size_t>(y * level.cells.x + x)]) continue;
         const glm::vec2 center = low_m_ + level.cell_m * (glm::vec2(x, y) + 0.5F);
         if (DistanceSquared(from, to, center) > reach_m * reach_m) continue;
         in_cells.push_back(static_cast<std::uint64_t>(y * level.cells.x + x) << 32 | i);
@@ -151,10 +183,9 @@ void InkGrid::AddLine(const InkShape& shape, std::uint32_t number, const Level& 
   AddParts(number, &in_cells, found);
 }
 
-void InkGrid::AddArea(const InkShape& shape, std::uint32_t number, const Level& level,
-                      std::vector<InCell>* found) {
+void InkGrid::AddArea(std::uint32_t number, const Level& level, std::vector<InCell>* found) {
   const std::size_t first_found = found->size();
-  AddLine(shape, number, level, found);  // The edges.
+  AddLine({}, number, level, found);  // The edges, which have no width.
   glm::vec2 low(std::numeric_limits<float>::max()), high = -low;
   for (std::uint32_t i = first_segments_[number]; i < first_segments_[number + 1]; ++i) {
     low = glm::min(low, glm::vec2(segments_[i].from));
@@ -191,7 +222,7 @@ void InkGrid::AddArea(const InkShape& shape, std::uint32_t number, const Level& 
       const bool has_edges = with_edges != found->end() && with_edges->cell == cell;
       if (has_edges) in_cell = *with_edges++;
       in_cell.entry.inside = winding;
-      if (has_edges || winding != 0.0F) merged.push_back(in_cell);
+      if (has_edges || (winding != 0.0F && !crowded_[cell])) merged.push_back(in_cell);
     }
   }
   found->resize(first_found);
@@ -200,24 +231,92 @@ void InkGrid::AddArea(const InkShape& shape, std::uint32_t number, const Level& 
 
 /// Sorts the entries by cell; within one, shapes keep their order.
 void InkGrid::SortIntoCells(std::span<const InkShape> shapes, const Level& level,
-                            std::vector<InCell>* found) {
-  const auto count =
-      static_cast<std::size_t>(level.cells.x) * static_cast<std::size_t>(level.cells.y);
-  std::stable_sort(found->begin(), found->end(),
-                   [](const InCell& a, const InCell& b) { return a.cell < b.cell; });
-  cells_.resize(level.first_cell + count, {0, 0});
-  for (std::size_t i = 0; i < found->size();) {
-    const std::uint32_t cell = (*found)[i].cell;
-    auto& [first, size] = cells_[level.first_cell + cell];
-    first = static_cast<std::uint32_t>(entries_.size());
+                            const std::vector<InCell>& found) {
+  std::vector<std::uint32_t> starts(crowded_.size() + 1, 0);
+  for (const InCell& in_cell : found) ++starts[in_cell.cell + 1];
+  std::partial_sum(starts.begin(), starts.end(), starts.begin());
+  std::vector<Entry> sorted(found.size());
+  std::vector<std::uint32_t> next(starts.begin(), starts.end() - 1);
+  for (const InCell& in_cell : found) sorted[next[in_cell.cell]++] = in_cell.entry;
+  cells_.resize(level.first_cell + crowded_.size(), {0, 0});
+  for (std::uint32_t cell = 0; cell < crowded_.size(); ++cell) {
+    std::vector<Entry> listed(sorted.begin() + starts[cell], sorted.begin() + starts[cell + 1]);
     std::size_t parts = 0;
-    for (; i < found->size() && (*found)[i].cell == cell; ++i) {
-      entries_.push_back((*found)[i].entry);
-      parts += (*found)[i].entry.count;
-      ++size;
+    for (const Entry& entry : listed) parts += entry.count;
+    crowded_[cell] = crowded_[cell] || parts > kMaxParts || listed.size() > kMaxParts;
+    if (crowded_[cell]) {
+      listed = levels_.empty() ? MeansOf(shapes, level, cell, listed)
+                               : MeansOfChildren(shapes, level, cell);
+      KeepLargest(&listed);
     }
-    if (parts > kMaxParts || size > kMaxParts) TakeMean(shapes, level, cell);
+    cells_[level.first_cell + cell] = {static_cast<std::uint32_t>(entries_.size()),
+                                       static_cast<std::uint32_t>(listed.size())};
+    entries_.insert(entries_.end(), listed.begin(), listed.end());
   }
+}
+
+/// Mean coverages of the shapes that a cell lists.
+std::vector<InkGrid::Entry> InkGrid::MeansOf(std::span<const InkShape> shapes, const Level& level,
+                                             std::uint32_t cell,
+                                             std::span<const Entry> listed) const {
+  const auto width = static_cast<std::uint32_t>(level.cells.x);
+  const glm::vec2 low = low_m_ + level.cell_m * glm::vec2(cell % width, cell / width);
+  std::vector<Entry> means;
+  for (const Entry& entry : listed) {
+    const InkShape& shape = shapes[entry.shape];
+    float covered = entry.inside;
+    if ((entry.count & kMeanBit) == 0) {
+      covered = shape.rings.empty() ? MeanOfLine(shape.pen, entry, low, level.cell_m)
+                                    : MeanOfArea(entry, low, level.cell_m);
+    }
+    if (covered > 0.0F) means.push_back({entry.shape, 0, kMeanBit, std::min(covered, 1.0F)});
+  }
+  return means;
+}
+
+/// Mean coverages of a cell, from those of the four cells below.
+std::vector<InkGrid::Entry> InkGrid::MeansOfChildren(std::span<const InkShape> shapes,
+                                                     const Level& level, std::uint32_t cell) const {
+  const Level& below = levels_.back();
+  const glm::ivec2 first(2 * (static_cast<int>(cell) % level.cells.x),
+                         2 * (static_cast<int>(cell) / level.cells.x));
+  std::vector<Entry> means;
+  for (int child = 0; child < 4; ++child) {
+    const glm::ivec2 at = first + glm::ivec2(child % 2, child / 2);
+    if (at.x >= below.cells.x || at.y >= below.cells.y) continue;
+    const auto number = static_cast<std::uint32_t>(at.y * below.cells.x + at.x);
+    const auto [begin, count] = cells_[below.first_cell + number];
+    for (Entry mean : MeansOf(shapes, below, number, std::span(entries_).subspan(begin, count))) {
+      mean.inside *= 0.25F;
+      means.push_back(mean);
+    }
+  }
+  std::sort(means.begin(), means.end(),
+            [](const Entry& a, const Entry& b) { return a.shape < b.shape; });
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < means.size(); ++i) {
+    if (kept > 0 && means[kept - 1].shape == means[i].shape) {
+      means[kept - 1].inside += means[i].inside;
+    } else {
+      means[kept++] = means[i];
+    }
+  }
+  means.resize(kept);
+  return means;
+}
+
+/// Share of a cell that a line covers.
+float InkGrid::MeanOfLine(const InkPen& pen, const Entry& entry, glm::vec2 low_m,
+                          float cell_m) const {
+  float length_m = 0.0F;
+  for (std::uint32_t p = entry.first_part; p < entry.first_part + entry.count; ++p) {
+    const Segment& segment = segments_[parts_[p]];
+    length_m += LengthWithin(glm::vec2(segment.from), glm::vec2(segment.to), low_m, low_m + cell_m);
+  }
+  // Footprints that take means of a level have about half a cell.
+  const float width_m = pen.width_m > 0.0F ? pen.width_m : 0.5F * cell_m * pen.width_px;
+  const float drawn = pen.gap_m > 0.0F ? pen.dash_m / (pen.dash_m + pen.gap_m) : 1.0F;
+  return drawn * width_m * length_m / (cell_m * cell_m);
 }
 
 /// Share of a cell that an area covers, from its winding numbers at places.
@@ -236,46 +335,6 @@ float InkGrid::MeanOfArea(const Entry& entry, glm::vec2 low_m, float cell_m) con
     covered += std::min(std::fabs(winding), 1.0F);
   }
   return covered / (kPlacesOfMean * kPlacesOfMean);
-}
-
-/// Replaces the entries of the last cell by mean coverages.
-void InkGrid::TakeMean(std::span<const InkShape> shapes, const Level& level, std::uint32_t cell) {
-  auto& [first, size] = cells_[level.first_cell + cell];
-  const auto width = static_cast<std::uint32_t>(level.cells.x);
-  const glm::vec2 low = low_m_ + level.cell_m * glm::vec2(cell % width, cell / width);
-  std::vector<Entry> means;
-  for (std::uint32_t e = first; e < first + size; ++e) {
-    Entry entry = entries_[e];
-    const InkShape& shape = shapes[entry.shape];
-    float covered = 0.0F;
-    if (shape.rings.empty()) {
-      // Footprints of the cells' level have about half a cell.
-      const float width_m =
-          shape.pen.width_m > 0.0F ? shape.pen.width_m : 0.5F * level.cell_m * shape.pen.width_px;
-      for (std::uint32_t p = entry.first_part; p < entry.first_part + entry.count; ++p) {
-        const Segment& segment = segments_[parts_[p]];
-        covered += width_m * LengthWithin(glm::vec2(segment.from), glm::vec2(segment.to), low,
-                                          low + level.cell_m);
-      }
-      covered /= level.cell_m * level.cell_m;
-      const InkPen& pen = shape.pen;
-      if (pen.gap_m > 0.0F) covered *= pen.dash_m / (pen.dash_m + pen.gap_m);
-    } else {
-      covered = MeanOfArea(entry, low, level.cell_m);
-    }
-    if (covered <= 0.0F) continue;
-    means.push_back({entry.shape, 0, kMeanBit, std::min(covered, 1.0F)});
-  }
-  if (means.size() > kMaxShapes) {
-    const auto larger = [](const Entry& a, const Entry& b) { return a.inside > b.inside; };
-    std::nth_element(means.begin(), means.begin() + kMaxShapes, means.end(), larger);
-    means.resize(kMaxShapes);
-    std::sort(means.begin(), means.end(),
-              [](const Entry& a, const Entry& b) { return a.shape < b.shape; });
-  }
-  entries_.resize(first);
-  entries_.insert(entries_.end(), means.begin(), means.end());
-  size = static_cast<std::uint32_t>(means.size());
 }
 
 std::vector<InkGrid::Box> InkGrid::Boxes() const {

@@ -67,16 +67,20 @@ class InkGrid {
     Entry entry;
   };
   void AddLevel(std::span<const InkShape> shapes, float cell_m);
+  void FindCrowdedChildren(const Level& level);
   void AddLine(const InkShape& shape, std::uint32_t number, const Level& level,
                std::vector<InCell>* found);
-  void AddArea(const InkShape& shape, std::uint32_t number, const Level& level,
-               std::vector<InCell>* found);
+  void AddArea(std::uint32_t number, const Level& level, std::vector<InCell>* found);
   void AddParts(std::uint32_t number, std::vector<std::uint64_t>* in_cells,
                 std::vector<InCell>* found);
   void SortIntoCells(std::span<const InkShape> shapes, const Level& level,
-                     std::vector<InCell>* found);
+                     const std::vector<InCell>& found);
+  std::vector<Entry> MeansOf(std::span<const InkShape> shapes, const Level& level,
+                             std::uint32_t cell, std::span<const Entry> listed) const;
+  std::vector<Entry> MeansOfChildren(std::span<const InkShape> shapes, const Level& level,
+                                     std::uint32_t cell) const;
+  float MeanOfLine(const InkPen& pen, const Entry& entry, glm::vec2 low_m, float cell_m) const;
   float MeanOfArea(const Entry& entry, glm::vec2 low_m, float cell_m) const;
-  void TakeMean(std::span<const InkShape> shapes, const Level& level, std::uint32_t cell);
 
   glm::vec2 low_m_{0.0F}, high_m_{0.0F};
   std::vector<Level> levels_;
@@ -85,6 +89,7 @@ class InkGrid {
   std::vector<std::uint32_t> parts_;
   std::vector<Segment> segments_;
   std::vector<std::uint32_t> first_segments_;  // One a shape.
+  std::vector<bool> crowded_;                  // Cells of the level that is added last.
 };
 
 }  // namespace pleinair::compositor

@@ -159,10 +159,13 @@ Result<void> InkPass::Draw(const RenderTargets& targets, const SceneSurfaces& su
   images.Begin();
   if (within.empty()) return {};
   PLEINAIR_ASSIGN_OR_RETURN(const gl::GlProgram* program, ProgramFor(picture));
-  ratio.FindSurfaces(targets, surfaces, frame, within);
+  EnableSurfaceTests();
+  ratio.DrawAllSurfaces(targets, surfaces, frame, images.tiles.Bounds());
+  glDisable(GL_CULL_FACE);
+  glDisable(GL_DEPTH_TEST);
   images.framebuffer.Bind();
-  targets.seen().Bind(0);
-  targets.weights().Bind(19);
+  targets.ids().Bind(0);
+  surfaces.triangles().Bind();
   int unit = kFirstUnit;
   for (const gl::GlTexture* table :
        {&tables_.cells, &tables_.entries, &tables_.parts, &tables_.segments, &tables_.shapes}) {
@@ -173,6 +176,7 @@ Result<void> InkPass::Draw(const RenderTargets& targets, const SceneSurfaces& su
   frame.Set(*program);
   frame.SetRays(*program);
   frame.SetSunTransmittance(*program);
+  program->Set("u_samples", targets.samples());
   program->Set("u_blur_px", picture.blur_px);
   program->Set("u_render_px", picture.render_px);
   program->Set("u_assumes_unmodelled_shadows", shadows.assume_unmodelled ? 1.0F : 0.0F);

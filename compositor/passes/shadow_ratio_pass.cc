@@ -31,46 +31,37 @@ Result<ShadowRatioPass> ShadowRatioPass::Create(bool blended) {
 
 void ShadowRatioPass::DrawSurfaces(const RenderTargets& targets, const SceneSurfaces& surfaces,
                                    const FrameUniforms& frame, const PixelRect& within) const {
+  DrawIds(targets, surfaces, frame, within, SceneSurfaces::Numbered::kAffected);
+}
+
+void ShadowRatioPass::DrawAllSurfaces(const RenderTargets& targets, const SceneSurfaces& surfaces,
+                                      const FrameUniforms& frame, const PixelRect& within) const {
+  DrawIds(targets, surfaces, frame, within, SceneSurfaces::Numbered::kAll);
+}
+
+void ShadowRatioPass::DrawIds(const RenderTargets& targets, const SceneSurfaces& surfaces,
+                              const FrameUniforms& frame, const PixelRect& within,
+                              SceneSurfaces::Numbered numbered) const {
   targets.BeginSurfaces();
   glEnable(GL_SCISSOR_TEST);
   glScissor(within.x, within.y, within.width, within.height);
   const gl::GlProgram& program =
       frame.place.behind.dioptres == nullptr ? id_program_ : behind_id_program_;
   program.Use();
-  frame.DrawSides(program, [&] { surfaces.DrawPhantoms(program); });
+  frame.DrawSides(program, [&] { surfaces.DrawPhantoms(program, numbered); });
   glDisable(GL_SCISSOR_TEST);
 }
 
-void ShadowRatioPass::Classify(const RenderTargets& targets,
-                               std::span<const PixelRect> within) const {
+void ShadowRatioPass::Begin(const RenderTargets& targets, const SceneSurfaces& surfaces,
+                            const CoveragePass& coverage, std::span<const PixelRect> within) const {
   no_attributes_.Bind();
+  surfaces.triangles().Bind();
   targets.BeginSorting();
   glDepthFunc(GL_ALWAYS);
   targets.ids().Bind(0);
   sort_program_.Use();
   sort_program_.Set("u_samples", targets.samples());
   DrawWithin(within);
-}
-
-void ShadowRatioPass::FindSurfaces(const RenderTargets& targets, const SceneSurfaces& surfaces,
-                                   const FrameUniforms& frame,
-                                   std::span<const PixelRect> within) const {
-  EnableSurfaceTests();
-  targets.BeginSurfaces();
-  id_program_.Use();
-  frame.DrawSides(id_program_,
-                  [&] { surfaces.DrawPhantoms(id_program_, SceneSurfaces::Numbered::kAll); });
-  glDisable(GL_CULL_FACE);
-  surfaces.triangles().Bind();
-  Classify(targets, within);
-  glDepthFunc(GL_LESS);
-  glDisable(GL_DEPTH_TEST);
-}
-
-void ShadowRatioPass::Begin(const RenderTargets& targets, const SceneSurfaces& surfaces,
-                            const CoveragePass& coverage, std::span<const PixelRect> within) const {
-  surfaces.triangles().Bind();
-  Classify(targets, within);
   coverage.DrawOver(false, targets.samples());
 
   targets.BeginRatio(within);

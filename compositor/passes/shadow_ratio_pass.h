@@ -29,11 +29,10 @@ class ShadowRatioPass {
   void DrawSurfaces(const RenderTargets& targets, const SceneSurfaces& surfaces,
                     const FrameUniforms& frame, const PixelRect& within) const;
 
-  /// Draws the triangle numbers of all real surfaces and finds the surfaces that each pixel shows,
-  /// for shaders that read targets.seen() and targets.weights(). Requires
-  /// SceneSurfaces::NumberAll(). Afterwards GL_DEPTH_TEST and GL_CULL_FACE are disabled.
-  void FindSurfaces(const RenderTargets& targets, const SceneSurfaces& surfaces,
-                    const FrameUniforms& frame, std::span<const PixelRect> within) const;
+  /// As DrawSurfaces(), for all real surfaces, also those that nothing affects. Requires
+  /// SceneSurfaces::NumberAll().
+  void DrawAllSurfaces(const RenderTargets& targets, const SceneSurfaces& surfaces,
+                       const FrameUniforms& frame, const PixelRect& within) const;
 
   /// Shades the pixels of DrawSurfaces() where sky light alone changes and airlight is not
   /// noticeable. The others have the ratio 1. State as Draw().
@@ -63,8 +62,9 @@ class ShadowRatioPass {
   }
 
  private:
-  /// Classifies the pixels of targets.ids().
-  void Classify(const RenderTargets& targets, std::span<const PixelRect> within) const;
+  void DrawIds(const RenderTargets& targets, const SceneSurfaces& surfaces,
+               const FrameUniforms& frame, const PixelRect& within,
+               SceneSurfaces::Numbered numbered) const;
   /// Classifies the pixels and clears the ratio.
   void Begin(const RenderTargets& targets, const SceneSurfaces& surfaces,
              const CoveragePass& coverage, std::span<const PixelRect> within) const;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <glm/glm.hpp>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -208,33 +209,41 @@ Result<void> CameraPicture::SetBackground(CameraImageView image) {
   return {};
 }
 
-ImageTiles CameraPicture::SetTiles(const AffectedTiles& tiles) {
+ImageTiles CameraPicture::SetTiles(const AffectedTiles& tiles, const InkImages* ink) {
   ImageTiles fine = tiles.fine;
   ImageTiles drawn_fine(camera_.width, camera_.height), drawn_coarse = drawn_fine;
+  ImageTiles drawn_inked = drawn_fine;
   for (const Sampled& sampled : sampled_) {
     const auto& [x, y, width, height] = sampled.tile;
     const glm::vec2 low(x + 0.5F, y + 0.5F), high(x + width - 0.5F, y + height - 0.5F);
-    if (tiles.fine.Touches(sampled.low, sampled.high)) {
+    const bool is_drawn = tiles.all.Touches(sampled.low, sampled.high);
+    const bool has_ink = ink != nullptr && ink->tiles.Touches(sampled.low, sampled.high);
+    if (tiles.fine.Touches(sampled.low, sampled.high) || (is_drawn && has_ink)) {
       drawn_fine.Include(low, high);
       fine.Include(sampled.low, sampled.high);
-    } else if (tiles.all.Touches(sampled.low, sampled.high)) {
+    } else if (is_drawn) {
       drawn_coarse.Include(low, high);
+    } else if (has_ink) {
+      drawn_inked.Include(low, high);
     }
   }
   output_.fine = drawn_fine.Rectangles();
   output_.coarse = drawn_coarse.Rectangles();
+  output_.inked = drawn_inked.Rectangles();
   return fine;
 }
 
-Result<const gl::GlProgram*> CameraPicture::FineProgram(bool occluded, bool inked) {
+Result<const gl::GlProgram*> CameraPicture::FineProgram(const Parts& parts) {
   const bool grain = grain_.look.has_value();
-  if (!occluded && !inked) return &programs_.composite[0][grain ? 1 : 0];
+  if (!parts.occluded && !parts.inked) return &programs_.composite[0][grain ? 1 : 0];
   std::optional<gl::GlProgram>& made =
-      programs_.others[(occluded ? 1U : 0U) | (inked ? 2U : 0U) | (grain ? 4U : 0U)];
+      programs_.others[(parts.occluded ? 1U : 0U) | (parts.inked ? 2U : 0U) |
+                       (parts.ink_alone ? 4U : 0U) | (grain ? 8U : 0U)];
   if (!made) {
     std::vector<std::string> defines;
-    if (occluded) defines.emplace_back("OCCLUDED");
-    if (inked) defines.emplace_back("INK");
+    if (parts.occluded) defines.emplace_back("OCCLUDED");
+    if (parts.inked) defines.emplace_back("INK");
+    if (parts.ink_alone) defines.emplace_back("INK_ALONE");
     PLEINAIR_ASSIGN_OR_RETURN(gl::GlProgram program, CreateComposite(defines, grain));
     made.emplace(std::move(program));
   }
@@ -245,7 +254,11 @@ Result<void> CameraPicture::Draw(const RenderTargets& targets, const gl::GlTextu
                                  const AffectedTiles& tiles, const RealOccluders* occluders,
                                  const InkImages* ink) {
   PLEINAIR_ASSIGN_OR_RETURN(const gl::GlProgram* fine,
-                            FineProgram(occluders != nullptr, ink != nullptr));
+                            FineProgram({occluders != nullptr, ink != nullptr, false}));
+  const gl::GlProgram* inked = nullptr;
+  if (ink != nullptr && !output_.inked.empty()) {
+    PLEINAIR_ASSIGN_OR_RETURN(inked, FineProgram({false, true, true}));
+  }
   if (added_blur_px_ > 0.0) Blur(targets, tiles);
   output_.framebuffer.Bind();
   if (!response_.curve.IsSrgb()) {
@@ -256,12 +269,12 @@ Result<void> CameraPicture::Draw(const RenderTargets& targets, const gl::GlTextu
   targets.objects().Bind(2);
   positions_.Bind(3);
   no_attributes_.Bind();
-  const auto draw = [&](const gl::GlTexture& ratio, bool coarse) {
-    const gl::GlProgram& program = coarse ? programs_.composite[1][grain_.look ? 1 : 0] : *fine;
+  const auto draw = [&](const gl::GlProgram& program, const gl::GlTexture& ratio,
+                        std::span<const PixelRect> within) {
     program.Use();
     if (grain_.look) SetGrain(program);
     ratio.Bind(1);
-    DrawWithin(coarse ? output_.coarse : output_.fine);
+    DrawWithin(within);
   };
   if (occluders != nullptr) {
     occluders->background().Bind(7);
@@ -272,8 +285,9 @@ Result<void> CameraPicture::Draw(const RenderTargets& targets, const gl::GlTextu
     ink->lit.Bind(10);
     ink->unlit.Bind(11);
   }
-  draw(targets.ratio(), false);
-  draw(coarse_ratio, true);
+  draw(*fine, targets.ratio(), output_.fine);
+  draw(programs_.composite[1][grain_.look ? 1 : 0], coarse_ratio, output_.coarse);
+  if (inked != nullptr) draw(*inked, targets.ratio(), output_.inked);
   ++grain_.pictures;
   return {};
 }
@@ -281,7 +295,7 @@ Result<void> CameraPicture::Draw(const RenderTargets& targets, const gl::GlTextu
 RgbImage CameraPicture::Read(ImageView<const std::uint8_t> rgb) const {
   RgbImage composed(camera_.width, camera_.height, 3);
   std::copy_n(rgb.data(), composed.size(), composed.data());
-  for (const auto* rectangles : {&output_.fine, &output_.coarse}) {
+  for (const auto* rectangles : {&output_.fine, &output_.coarse, &output_.inked}) {
     for (const auto& [x, y, width, height] : *rectangles) {
       output_.framebuffer.ReadRectangle(x, y, width, height, GL_RGB, GL_UNSIGNED_BYTE,
                                         camera_.width, &composed(x, y));

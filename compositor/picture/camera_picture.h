@@ -50,8 +50,9 @@ class CameraPicture {
   double supersampling() const { return supersampling_; }
   /// Sets the tiles of the render image for the next Draw(). `tiles.all` must have all render
   /// pixels within Spread_px() of a ratio other than 1 or of an object, `tiles.fine` those that
-  /// need the full resolution. Returns the tiles that must be drawn at full resolution.
-  ImageTiles SetTiles(const AffectedTiles& tiles);
+  /// need the full resolution. `ink`: null, or with ink in its tiles. Returns the tiles that must
+  /// be drawn at full resolution.
+  ImageTiles SetTiles(const AffectedTiles& tiles, const InkImages* ink = nullptr);
   /// Composes the drawn and resolved `targets` and the coarse ratio. The blur is applied to
   /// `targets` in place, in the tiles with objects and those drawn at full resolution. `occluders`:
   /// real surfaces that cover objects over a part of the lens; null: none. `ink`: null, or ink
@@ -82,7 +83,8 @@ class CameraPicture {
   struct Output {
     gl::GlTexture picture;
     gl::GlFramebuffer framebuffer;
-    std::vector<PixelRect> fine, coarse;  // By the resolution of the virtual image in them.
+    // By the resolution of the virtual image in them; with ink and nothing else.
+    std::vector<PixelRect> fine, coarse, inked;
   };
   /// Render pixels that a tile of the camera image samples.
   struct Sampled {
@@ -92,8 +94,8 @@ class CameraPicture {
   struct Programs {
     // Second index: without and with grain. First index: fine and coarse.
     std::array<std::array<gl::GlProgram, 2>, 2> composite;
-    // Fine, created on first use: with occluders, with ink, with grain.
-    std::array<std::optional<gl::GlProgram>, 8> others;
+    // Fine, by Parts and grain; created on first use.
+    std::array<std::optional<gl::GlProgram>, 16> others;
     gl::GlProgram blur, blur_of_ratio;
   };
   /// The sensor's noise.
@@ -108,8 +110,11 @@ class CameraPicture {
   Result<void> CreateResponseTables();
   /// The last program. `defines`: in addition to those that camera and response need.
   Result<gl::GlProgram> CreateComposite(std::vector<std::string> defines, bool grain) const;
-  /// The program for tiles at full resolution.
-  Result<const gl::GlProgram*> FineProgram(bool occluded, bool inked);
+  /// What takes part in the composition of a tile at full resolution.
+  struct Parts {
+    bool occluded = false, inked = false, ink_alone = false;
+  };
+  Result<const gl::GlProgram*> FineProgram(const Parts& parts);
   int BlurReach_px() const;
   void Blur(const RenderTargets& targets, const AffectedTiles& tiles) const;
   void SetGrain(const gl::GlProgram& program) const;

@@ -4,40 +4,14 @@
 // AffectedTriangles::Change of the samples, for the passes that shade.
 
 #include "compositor/shaders/piece_weights.glsl"
-#include "compositor/shaders/visibility_buffer.glsl"
-
-layout(binding = 0) uniform usampler2DMS u_ids;
-uniform int u_samples;  // Per pixel, 4 at most.
+#include "compositor/shaders/pixel_pieces.glsl"
 
 layout(location = 0) out uvec4 out_visible;  // First to last: VisibleTriangle.
 layout(location = 1) out uvec2 out_weights;  // As piece_weights.glsl.
 
 void main() {
-  ivec2 pixel = ivec2(gl_FragCoord.xy);
-  // Remaining numbers; 0: nothing, an object, or done.
-  uvec4 left = uvec4(0u);
-  for (int i = 0; i < u_samples; ++i) left[i] = texelFetch(u_ids, pixel, i).r;
-  left *= uvec4(lessThan(left, uvec4(kObjectBit)));
-  uvec4 seen = uvec4(0u), components = uvec4(~0u);
-  uint kind = kNothing;
-  int found = 0;
-  // Most pixels show one triangle and need one iteration. Tested at its end, see
-  // shadow_visibility.glsl.
-  do {
-    uint id = left.x != 0u ? left.x : left.y != 0u ? left.y : left.z != 0u ? left.z : left.w;
-    uvec4 same_id = uvec4(equal(left, uvec4(id)));
-    left *= 1u - same_id;
-    uvec4 triangle = TriangleOf(id);
-    bvec4 same_component = equal(components, uvec4(ComponentOf(triangle)));
-    bool known = any(same_component);
-    uvec4 slot = uvec4(known ? same_component : equal(ivec4(found), ivec4(0, 1, 2, 3)));
-    slot *= uint(id != 0u);
-    seen += slot * VisibleTriangle(known ? 0u : id, same_id);
-    components = mix(components, uvec4(ComponentOf(triangle)), equal(slot, uvec4(1u)));
-    found += known ? 0 : 1;
-    kind = id == 0u ? kind : min(kind, KindOf(triangle));
-  } while (any(notEqual(left, uvec4(0u))));
-  out_visible = seen;
-  out_weights = uvec2(WeightsOfSamples(seen, u_samples), 0u);
-  gl_FragDepth = DepthOfKind(kind);
+  PixelPieces pieces = PiecesOfPixel(ivec2(gl_FragCoord.xy));
+  out_visible = pieces.seen;
+  out_weights = uvec2(WeightsOfSamples(pieces.seen, u_samples), 0u);
+  gl_FragDepth = DepthOfKind(pieces.kind);
 }

@@ -6,6 +6,7 @@
 // compositor/passes/coarse_ratio.h, and there is no object. SAME_PIXELS: render pixels are camera
 // pixels. OCCLUDED: real surfaces cover objects over a part of the lens
 // (compositor/lens/real_occluders.h). INK: real surfaces carry ink (compositor/passes/ink_images.h).
+// INK_ALONE: and nothing else changes.
 
 #include "compositor/shaders/srgb_transfer.glsl"
 
@@ -84,6 +85,10 @@ void main() {
   const float kStep_px = 4.0;
   vec4 object = vec4(0.0);
   vec3 ratio = texture(u_ratio, position / (kStep_px * vec2(textureSize(u_ratio, 0)))).rgb;
+#elif defined(INK_ALONE)
+  vec2 at = position / vec2(textureSize(u_ink_kept, 0));
+  vec4 object = vec4(0.0);
+  vec3 ratio = vec3(1.0);
 #elif defined(SAME_PIXELS)
   vec4 object = texelFetch(u_objects, pixel, 0);
   vec3 ratio = texelFetch(u_ratio, pixel, 0).rgb;

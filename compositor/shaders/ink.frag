@@ -6,6 +6,7 @@
 
 #include "compositor/shaders/ink_coverage.glsl"
 #include "compositor/shaders/piece_weights.glsl"
+#include "compositor/shaders/pixel_pieces.glsl"
 #include "compositor/shaders/visible_surface.glsl"
 
 #ifdef PAINT
@@ -19,8 +20,6 @@ uniform vec3 u_to_sun;          // Unit, marker coordinates.
 uniform vec3 u_sun_normal_lux;  // Linear Rec.709.
 #endif
 
-layout(binding = 0) uniform usampler2D u_visible;  // From affected_pixels.frag.
-layout(binding = 19) uniform usampler2D u_weights;
 layout(binding = 24) uniform usampler2D u_ink_cells;    // First entry, number of entries.
 layout(binding = 25) uniform usampler2D u_ink_entries;  // InkGrid::Entry.
 layout(binding = 26) uniform usampler2D u_ink_parts;    // Numbers of segments.
@@ -131,8 +130,8 @@ vec3 LightOn(VisibleSurface surface, int component) {
 #endif
 
 void main() {
-  uvec4 seen = texelFetch(u_visible, ivec2(gl_FragCoord.xy), 0);
-  uint weights = texelFetch(u_weights, ivec2(gl_FragCoord.xy), 0).r;
+  uvec4 seen = PiecesOfPixel(ivec2(gl_FragCoord.xy)).seen;
+  uint weights = WeightsOfSamples(seen, u_samples);
   Ink ink = Ink(vec3(0.0), vec3(0.0), vec3(0.0));
   float whole = 0.0;
   float spread = sqrt(1.0 + 12.0 * u_blur_px * u_blur_px);  // A box of the same variance.
