@@ -340,7 +340,7 @@ Result<void> SceneRenderer::Follow(CameraImageView image,
   }
   PLEINAIR_RETURN_IF_ERROR(composer_->SetLightMix(light_->in_use()->meshes, followed.mix));
   PLEINAIR_RETURN_IF_ERROR(ink_.Update(std::span(placed_).first(scene_.phantoms.size()),
-                                       scene::MarkerFromWorld(scene_.marker), composer_.get()));
+                                       scene_.marker, composer_.get()));
   // Last: it draws other meshes, with the same mix.
   PLEINAIR_RETURN_IF_ERROR(FadeLight(time));
   times_.light_ms = MillisecondsSince(start);

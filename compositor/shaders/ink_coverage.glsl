@@ -63,31 +63,57 @@ LineCoverage WithSegment(LineCoverage line, LineCoverage segment) {
   return both;
 }
 
-// `place`: the pixel's center. `from`, `to`: the segment; w is the way along its line.
-LineCoverage CoverageOfSegment(vec3 place, vec2 step_x, vec2 step_y, float footprint_height, vec4 from,
-                               vec4 to, float half_width, float dash, float gap) {
-  vec2 at = vec2(place.x, place.y);
-  vec2 start = vec2(from.x, from.y);
-  vec2 whole = vec2(to.x, to.y) - start;
-  float size = length(whole);
-  vec2 along = size > 1e-6f ? whole / size : vec2(1.0f, 0.0f);
+// Of a segment with the extent of a point seen from above: a disc, or a line up a vertical face.
+LineCoverage CoverageOfPoint(vec3 place, vec2 step_x, vec2 step_y, float footprint_height, vec4 from,
+                             vec4 to, float half_width, float dash, float gap) {
+  vec2 away = vec2(place.x - from.x, place.y - from.y);
+  float low = min(from.z, to.z), high = max(from.z, to.z);
+  bool climbs = high - low > 1e-4f;
+  // A vertical face is a line, along which its footprint lies.
+  vec2 longer = dot(step_x, step_x) > dot(step_y, step_y) ? step_x : step_y;
+  float size = length(longer);
+  vec2 along_face = size > 1e-9f ? longer / size : vec2(1.0f, 0.0f);
+  float distance = climbs ? abs(dot(away, along_face)) : length(away);
+  vec2 direction = climbs || distance < 1e-9f ? along_face : away / max(distance, 1e-9f);
+  float height = max(footprint_height, 1e-6f);
+  float share = climbs ? clamp((place.z - from.z) / (to.z - from.z), 0.0f, 1.0f) : 0.0f;
+  float dashes = DashCoverage(mix(from.w, to.w, share), height, dash, gap);
+  float overlap = (clamp(place.z + 0.5f * height, low, high) - clamp(place.z - 0.5f * height, low, high)) / height;
+  float beyond = max(max(low - place.z, place.z - high), 0.0f);
+  bool same = beyond <= 0.03f + 2.0f * length(away) + footprint_height;
+  float band = BandCoverage(distance, half_width, FootprintAlong(direction, step_x, step_y));
+  float footprint = max(abs(step_x.x * step_y.y - step_x.y * step_y.x), 1e-12f);
+  float disc = min(3.14159265f * half_width * half_width / footprint, 1.0f) *
+               (distance < 0.5f * FootprintAlong(direction, step_x, step_y) ? 1.0f : 0.0f);
+  float visible = same ? (climbs ? dashes : 1.0f) : 0.0f;
+  LineCoverage covered;
+  covered.beside = climbs ? visible * band * overlap : 0.0f;
+  covered.round_capped = climbs ? covered.beside : visible * band;
+  covered.distance = same ? distance : 1e30f;
+  covered.flat_capped = climbs ? covered.beside : visible * disc;
+  return covered;
+}
+
+// Of a segment with an extent seen from above.
+LineCoverage CoverageOfWay(vec3 place, vec2 step_x, vec2 step_y, float footprint_height, vec4 from,
+                           vec4 to, float half_width, float dash, float gap) {
+  vec2 at = vec2(place.x - from.x, place.y - from.y);
+  vec2 whole = vec2(to.x - from.x, to.y - from.y);
+  float size = max(length(whole), 1e-6f);
+  vec2 along = whole / size;
   vec2 across = vec2(-along.y, along.x);
-  float way = dot(at - start, along);
+  float way = dot(at, along);
   float inside = clamp(way, 0.0f, size);
-  vec2 away = at - start - inside * along;
+  vec2 away = at - inside * along;
   float distance = length(away);
   // Beside the segment, the distance is across it, also where that is 0.
-  bool beside = size > 1e-6f && way >= 0.0f && way <= size;
+  bool beside = way >= 0.0f && way <= size;
   vec2 direction = beside || distance < 1e-9f ? across : away / max(distance, 1e-9f);
-  float share = size > 1e-6f ? inside / size : 0.0f;
+  float share = inside / size;
   float footprint = FootprintAlong(along, step_x, step_y);
   float dashes = DashCoverage(mix(from.w, to.w, share), footprint, dash, gap);
-  // Other surfaces above or below the line show none of it. A segment that climbs a vertical face
-  // has a range of heights.
-  float low = size > 1e-6f ? mix(from.z, to.z, share) : min(from.z, to.z);
-  float high = size > 1e-6f ? low : max(from.z, to.z);
-  float beyond = max(max(low - place.z, place.z - high), 0.0f);
-  bool same = beyond <= 0.03f + 2.0f * distance + footprint_height;
+  // Other surfaces above or below the line show none of it.
+  bool same = abs(place.z - mix(from.z, to.z, share)) <= 0.03f + 2.0f * distance + footprint_height;
   float visible = same ? dashes : 0.0f;
   LineCoverage covered;
   covered.round_capped =
@@ -96,8 +122,21 @@ LineCoverage CoverageOfSegment(vec3 place, vec2 step_x, vec2 step_y, float footp
   covered.distance = same ? distance : 1e30f;
   float overlap = clamp(way + 0.5f * footprint, 0.0f, size) - clamp(way - 0.5f * footprint, 0.0f, size);
   covered.flat_capped = visible * overlap / footprint *
-                        BandCoverage(abs(dot(at - start, across)), half_width,
-                                     FootprintAlong(across, step_x, step_y));
+                        BandCoverage(abs(dot(at, across)), half_width, FootprintAlong(across, step_x, step_y));
+  return covered;
+}
+
+// `place`: the pixel's center. `from`, `to`: the segment; w is the way along its line.
+// `footprint_height`: of the pixel. Metres.
+LineCoverage CoverageOfSegment(vec3 place, vec2 step_x, vec2 step_y, float footprint_height, vec4 from,
+                               vec4 to, float half_width, float dash, float gap) {
+  bool is_point = length(vec2(to.x - from.x, to.y - from.y)) <= 1e-6f;
+  LineCoverage covered;
+  if (is_point) {
+    covered = CoverageOfPoint(place, step_x, step_y, footprint_height, from, to, half_width, dash, gap);
+  } else {
+    covered = CoverageOfWay(place, step_x, step_y, footprint_height, from, to, half_width, dash, gap);
+  }
   return covered;
 }
 

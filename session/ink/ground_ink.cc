@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "scene/marker_heading.h"
+
 namespace pleinair::session {
 
 void GroundInk::SetSource(InkSource source) {
@@ -10,10 +12,11 @@ void GroundInk::SetSource(InkSource source) {
 }
 
 Result<void> GroundInk::Update(std::span<const compositor::PlacedModel> phantoms,
-                               const Mat3& marker_from_world, compositor::Composer* composer) {
+                               const scene::MarkerDescription& marker,
+                               compositor::Composer* composer) {
+  const Mat3 marker_from_world = scene::MarkerFromWorld(marker);
   if (!source_ || laid_at_ == marker_from_world) return {};
-  PLEINAIR_ASSIGN_OR_RETURN(const std::vector<compositor::InkShape> ink,
-                            source_(phantoms, marker_from_world));
+  PLEINAIR_ASSIGN_OR_RETURN(const std::vector<compositor::InkShape> ink, source_(phantoms, marker));
   PLEINAIR_RETURN_IF_ERROR(composer->SetInk(ink, marker_from_world));
   laid_at_ = marker_from_world;
   return {};

@@ -10,13 +10,14 @@
 #include "compositor/composer.h"
 #include "compositor/ink/ink_shape.h"
 #include "compositor/models/placed_model.h"
+#include "scene/scene_description.h"
 
 namespace pleinair::session {
 
-/// Returns the ink that lies on phantoms at a heading, for Composer::SetInk(). `phantoms`: marker
-/// coordinates. `marker_from_world`: by the marker's heading.
+/// Returns the ink that lies on phantoms, for Composer::SetInk(). `phantoms`: marker coordinates,
+/// in the order of the scene. `marker`: with its heading.
 using InkSource = std::function<Result<std::vector<compositor::InkShape>>(
-    std::span<const compositor::PlacedModel> phantoms, const Mat3& marker_from_world)>;
+    std::span<const compositor::PlacedModel> phantoms, const scene::MarkerDescription& marker)>;
 
 /// The ink on the ground of a scene. It is laid anew when the marker's heading changes, since
 /// phantoms turn with the marker and the map does not.
@@ -26,7 +27,7 @@ class GroundInk {
   bool has_source() const { return source_ != nullptr; }
   /// Lays the ink where it has to lie. Errors: those of the source and of Composer::SetInk().
   Result<void> Update(std::span<const compositor::PlacedModel> phantoms,
-                      const Mat3& marker_from_world, compositor::Composer* composer);
+                      const scene::MarkerDescription& marker, compositor::Composer* composer);
 
  private:
   InkSource source_;

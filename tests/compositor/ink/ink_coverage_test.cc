@@ -194,15 +194,39 @@ TEST_F(InkCoverage, IsNotOnASurfaceAboveTheLine) {
 }
 
 TEST_F(InkCoverage, OfALineUpAWallIsABandOfItsWidth) {
-  // A vertical segment at the origin of a wall along x.
-  const auto covered = [](float x, float z) {
-    return glsl::CoverageOfSegment(glm::vec3(x, 0.0F, z), {0.005F, 0.0F}, {0.0F, 0.0F}, 0.005F,
-                                   {0, 0, 0, 0}, {0, 0, 2, 2}, 0.1F, 0.0F, 0.0F)
-        .round_capped;
+  // A line up a wall along x, to 2 m. Pixels of 5 mm.
+  const auto covered = [](float x, float z, float half_width) {
+    const auto line = glsl::WithSegment(
+        glsl::NoCoverage(),
+        glsl::CoverageOfSegment(glm::vec3(x, 0.0F, z), {0.005F, 0.0F}, {0.0F, 0.0F}, 0.005F,
+                                {0, 0, 0, 0}, {0, 0, 2, 2}, half_width, 0.0F, 0.0F));
+    return glsl::CoverageOfLine(line, half_width, 0.0025F);
   };
-  EXPECT_EQ(covered(0.05F, 1.0F), 1.0F);
-  EXPECT_EQ(covered(0.15F, 1.0F), 0.0F);
-  EXPECT_EQ(covered(0.0F, 2.7F), 0.0F);
+  EXPECT_NEAR(covered(0.05F, 1.0F, 0.1F), 1.0F, 1e-4F);
+  EXPECT_NEAR(covered(0.1F, 1.0F, 0.1F), 0.5F, 1e-3F);
+  EXPECT_EQ(covered(0.15F, 1.0F, 0.1F), 0.0F);
+  EXPECT_NEAR(covered(0.0F, 2.0F, 0.1F), 0.5F, 1e-3F) << "at the upper end";
+  EXPECT_EQ(covered(0.0F, 2.7F, 0.1F), 0.0F);
+  EXPECT_NEAR(covered(0.0F, 1.0F, 0.0005F), 0.2F, 1e-3F) << "thinner than a pixel";
+}
+
+TEST_F(InkCoverage, OfADiscIsItsArea) {
+  for (const float radius : {0.01F, 0.03F, 0.4F}) {
+    double sum = 0.0;
+    for (int y = -10; y <= 10; ++y) {
+      for (int x = -10; x <= 10; ++x) {
+        const auto line = glsl::WithSegment(
+            glsl::NoCoverage(),
+            glsl::CoverageOfSegment(
+                glm::vec3(0.1F * static_cast<float>(x), 0.1F * static_cast<float>(y), 0.0F),
+                {0.1F, 0.0F}, {0.0F, 0.1F}, 0.0F, {0.013F, 0.021F, 0, 0}, {0.013F, 0.021F, 0, 0},
+                radius, 0.0F, 0.0F));
+        sum += glsl::CoverageOfLine(line, radius, 0.1F);
+      }
+    }
+    const double area = std::numbers::pi * radius * radius;
+    EXPECT_NEAR(sum * 0.01, area, 0.06 * area) << radius;
+  }
 }
 
 /// Coverage of a shape by the cells of a grid, as shaders/ink.frag finds it; −1 in a cell of means.
