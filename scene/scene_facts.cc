@@ -4,13 +4,18 @@
 #include <cmath>
 #include <cstdio>
 #include <set>
-#include <system_error>
 #include <utility>
 
 #include "scene/magnetic_declination.h"
 
 namespace pleinair::scene {
 namespace {
+
+// Uses `fallback` if `fact` is unset.
+template <typename T>
+void Fill(std::optional<T>& fact, const std::optional<T>& fallback) {
+  if (!fact) fact = fallback;
+}
 
 bool Within(double value, double low, double high) {
   return std::isfinite(value) && value >= low && value <= high;
@@ -298,6 +303,37 @@ Result<void> CheckRanges(const SceneFacts& facts, const std::string& name) {
   return CheckFact(facts.turbidity, kTurbidity, name);
 }
 
+SceneFacts WithFallback(SceneFacts facts, const SceneFacts& fallback) {
+  Fill(facts.place_time.latitude_deg, fallback.place_time.latitude_deg);
+  Fill(facts.place_time.longitude_deg, fallback.place_time.longitude_deg);
+  // A height and what it is measured from belong together.
+  if (!facts.place_time.height_m) {
+    Fill(facts.place_time.above_ellipsoid, fallback.place_time.above_ellipsoid);
+  }
+  Fill(facts.place_time.height_m, fallback.place_time.height_m);
+  Fill(facts.place_time.start, fallback.place_time.start);
+  // The margin's size and the marker's identity describe one sheet of paper, so they are taken over
+  // only together with the marker's size.
+  if (!facts.marker.size_m && !facts.marker.target) {
+    Fill(facts.marker.target, fallback.marker.target);
+    Fill(facts.marker.size_m, fallback.marker.size_m);
+    Fill(facts.marker.board_size_m, fallback.marker.board_size_m);
+    Fill(facts.marker.family, fallback.marker.family);
+    Fill(facts.marker.id, fallback.marker.id);
+    Fill(facts.marker.version, fallback.marker.version);
+    Fill(facts.marker.albedo_black, fallback.marker.albedo_black);
+    Fill(facts.marker.albedo_white, fallback.marker.albedo_white);
+  }
+  if (!facts.marker.heading_magnetic_deg) {
+    Fill(facts.marker.heading_deg, fallback.marker.heading_deg);
+  }
+  Fill(facts.marker.upright, fallback.marker.upright);
+  Fill(facts.camera.recorded_lens, fallback.camera.recorded_lens);
+  Fill(facts.cloudiness, fallback.cloudiness);
+  if (facts.camera.response.empty()) facts.camera.response = fallback.camera.response;
+  return facts;
+}
+
 Result<SceneDescription> CompleteScene(const SceneFacts& facts, const std::filesystem::path& file) {
   const std::string name = file.string();
   PLEINAIR_RETURN_IF_ERROR(CheckRanges(facts, name));
@@ -336,30 +372,6 @@ Result<SceneDescription> CompleteScene(const SceneFacts& facts, const std::files
   scene.camera.exposure_scale = facts.camera.exposure_scale;
   scene.camera.response = facts.camera.response;
   return scene;
-}
-
-Result<void> CheckModelsExist(const SceneDescription& scene) {
-  const auto check = [&](const char* what, const std::filesystem::path& named) -> Result<void> {
-    std::error_code error;
-    if (std::filesystem::is_regular_file(named, error)) return {};
-    return InputError(
-        scene.file.string(),
-        std::string("names the ") + what + " " + named.string() + ", which is not there",
-        "put the file there or correct the name in the scene");
-  };
-  if (!scene.camera.response.empty()) {
-    PLEINAIR_RETURN_IF_ERROR(check("camera response", scene.camera.response));
-  }
-  for (const std::vector<ModelReference>* models : {&scene.phantoms, &scene.objects}) {
-    for (const ModelReference& model : *models) {
-      if (model.surface) continue;
-      PLEINAIR_RETURN_IF_ERROR(check("model", model.file));
-    }
-  }
-  for (const DrapeDescription& drape : scene.drapes) {
-    PLEINAIR_RETURN_IF_ERROR(check("map", drape.source.file));
-  }
-  return scene.marker.target ? check("target", *scene.marker.target) : Result<void>();
 }
 
 }  // namespace pleinair::scene

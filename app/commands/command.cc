@@ -111,6 +111,7 @@ int RunCommandLine(int argc, const char* const* argv) {
     AddLensCommand(app, result);
     AddPlaceCommand(app, result);
     AddTerrainCommand(app, result);
+    AddDrapeCommand(app, result);
     AddSunCommand(app, result);
     AddSkyCommand(app, result);
     AddAccuracyCommand(app, result);

@@ -20,7 +20,16 @@ void AddMarkerPlaceOptions(CLI::App& command, MarkerPlaceArguments* arguments) {
       .add_option("--height-reference", arguments->height_reference,
                   "What the height of the place is measured from")
       ->check(CLI::IsMember({"sea", "ellipsoid"}))
-      ->default_str("sea");
+      ->default_str("that of the scene, else sea");
+}
+
+content::Place PlaceOfMarker(const scene::SceneDescription& scene) {
+  const scene::PlaceTime& stated = scene.place_time;
+  const content::LocalFrame around({stated.longitude_deg, stated.latitude_deg, stated.height_m});
+  const content::GeodeticPoint origin = around.Geodetic({scene.marker.offset_m});
+  return {origin.latitude_deg, origin.longitude_deg, origin.height_m,
+          stated.above_ellipsoid ? content::HeightReference::kEllipsoid
+                                 : content::HeightReference::kSeaLevel};
 }
 
 Result<MarkerPlace> ReadMarkerPlace(const MarkerPlaceArguments& arguments,
@@ -34,9 +43,7 @@ Result<MarkerPlace> ReadMarkerPlace(const MarkerPlaceArguments& arguments,
   if (!arguments.scene.empty()) {
     PLEINAIR_ASSIGN_OR_RETURN(const scene::SceneDescription scene,
                               scene::ReadSceneDescription(arguments.scene));
-    marker.place.latitude_deg = scene.place_time.latitude_deg;
-    marker.place.longitude_deg = scene.place_time.longitude_deg;
-    marker.place.height_m = scene.place_time.height_m;
+    marker.place = PlaceOfMarker(scene);
     marker.marker_from_world = scene::MarkerFromWorld(scene.marker);
   }
   if (!arguments.at.empty()) {
@@ -44,9 +51,12 @@ Result<MarkerPlace> ReadMarkerPlace(const MarkerPlaceArguments& arguments,
     marker.place.latitude_deg = place.latitude_deg;
     marker.place.longitude_deg = place.longitude_deg;
     marker.place.height_m = place.height_m.value_or(0.0);
+    marker.place.reference = content::HeightReference::kSeaLevel;
   }
-  if (arguments.height_reference == "ellipsoid") {
-    marker.place.reference = content::HeightReference::kEllipsoid;
+  if (!arguments.height_reference.empty()) {
+    marker.place.reference = arguments.height_reference == "ellipsoid"
+                                 ? content::HeightReference::kEllipsoid
+                                 : content::HeightReference::kSeaLevel;
   }
   return marker;
 }

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/vector.h"
 #include "content/georeference/local_frame.h"
+#include "scene/scene_description.h"
 
 namespace pleinair::app {
 
@@ -22,6 +23,9 @@ struct MarkerPlace {
   /// Rotation to marker coordinates, of the scene; unset: no scene is given.
   std::optional<Mat3> marker_from_world;
 };
+
+/// The origin of a scene's marker: its [place], moved by the offset of its [marker].
+content::Place PlaceOfMarker(const scene::SceneDescription& scene);
 
 /// Adds --at, --scene and --height-reference.
 void AddMarkerPlaceOptions(CLI::App& command, MarkerPlaceArguments* arguments);

@@ -30,7 +30,8 @@ constexpr const char* kPlaceExamples =
     "      place and heading of the scene, and a plan, north up (SVG or PNG)\n"
     "  pleinair place pipes.shp --at 50.0875,14.4213 --crs EPSG:5514 -o vertices.csv --json\n"
     "      every vertex as a row: east, north, up, longitude, latitude, height\n"
-    "Reads GeoJSON, GeoPackage and Shapefile. docs/guide/maps.md explains heights and warnings.\n";
+    "Reads GeoJSON, GeoPackage, Shapefile, FlatGeobuf, KML, GPX, DXF and CSV with WKT.\n"
+    "docs/guide/maps.md explains heights and warnings.\n";
 
 constexpr double kDefaultRadius_m = 2000.0;
 constexpr double kMaxRadius_m = 1e6;
@@ -80,10 +81,10 @@ Result<void> RunPlace(const PlaceArguments& arguments) {
   PLEINAIR_ASSIGN_OR_RETURN(const MarkerPlace marker, ReadMarkerPlace(arguments.marker, "place"));
   placement.place = marker.place;
   placement.marker_from_world = marker.marker_from_world;
-  std::optional<std::string> layer;
-  if (!arguments.layer.empty()) layer = arguments.layer;
+  content::VectorQuery query;
+  if (!arguments.layer.empty()) query.layer = arguments.layer;
   PLEINAIR_ASSIGN_OR_RETURN(const std::vector<content::VectorLayer> layers,
-                            content::ReadVectorLayers(arguments.file, layer));
+                            content::ReadVectorLayers(arguments.file, query));
   PLEINAIR_ASSIGN_OR_RETURN(placement.layers,
                             content::PlaceLayers(layers, arguments.crs, placement.place,
                                                  arguments.radius_m, arguments.file));
@@ -111,7 +112,8 @@ void AddPlaceCommand(CLI::App& app, CommandResult& result) {
   CLI::App* command =
       app.add_subcommand("place", "Where the features of a map stand around the marker");
   command->footer(kPlaceExamples);
-  command->add_option("FILE", arguments->file, "GeoJSON, GeoPackage or Shapefile")->required();
+  command->add_option("FILE", arguments->file, "GeoJSON, GeoPackage, Shapefile or another map")
+      ->required();
   AddMarkerPlaceOptions(*command, &arguments->marker);
   command
       ->add_option("--crs", arguments->crs,

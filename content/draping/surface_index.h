@@ -13,6 +13,9 @@
 
 namespace pleinair::content {
 
+/// Distance in plan within which a point counts as lying on a line, metres: rounding at 10⁵ m.
+inline constexpr double kOnLine_m = 1e-8;
+
 /// Triangles that map data is draped on, in the tangent frame of the place, metres.
 struct SurfaceMesh {
   std::vector<Point<World>> vertices;
@@ -56,6 +59,12 @@ class SurfaceIndex {
   /// Collects the numbers of triangles that may be met between a and b, in rising order.
   void TrianglesAlong(Vec2 a, Vec2 b, std::vector<std::uint32_t>* triangles) const;
 
+  /// Calls `visit(number)` for the same triangles in another order, which is always the same.
+  template <typename Visit>
+  void VisitAlong(Vec2 a, Vec2 b, const Visit& visit) const {
+    tree_.VisitAlong(a, b, kOnLine_m, visit);
+  }
+
   const SurfaceMesh& mesh() const { return mesh_; }
   std::array<Vec3, 3> Corners(std::uint32_t triangle) const;
   /// Faces within 10⁻⁶ rad of the vertical: seen from above they are lines.
@@ -68,8 +77,5 @@ class SurfaceIndex {
   PlanTree tree_;
   std::vector<bool> vertical_;
 };
-
-/// Distance in plan within which a point counts as lying on a line, metres: rounding at 10⁵ m.
-inline constexpr double kOnLine_m = 1e-8;
 
 }  // namespace pleinair::content

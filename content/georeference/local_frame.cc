@@ -26,6 +26,24 @@ Vec3 GeocentricFromGeodetic(const GeodeticPoint& point) {
           ((1.0 - kSquaredEccentricity) * nu + point.height_m) * sine};
 }
 
+GeodeticPoint GeodeticFromGeocentric(const Vec3& point_m) {
+  // Heights up to 1,000 km shrink the error by e² h / (a + h) < 0.001 a step.
+  constexpr int kSteps = 7;
+  const double from_axis_m = std::hypot(point_m.x, point_m.y);
+  double latitude = std::atan2(point_m.z, from_axis_m * (1.0 - kSquaredEccentricity));
+  double height_m = 0.0;
+  for (int i = 0; i < kSteps; ++i) {
+    const double sine = std::sin(latitude), cosine = std::cos(latitude);
+    const double nu = kSemiMajorAxis_m / std::sqrt(1.0 - kSquaredEccentricity * sine * sine);
+    latitude = std::atan2(point_m.z + kSquaredEccentricity * nu * sine, from_axis_m);
+    // Along the normal, which has no weak direction.
+    height_m = from_axis_m * cosine + point_m.z * sine -
+               kSemiMajorAxis_m * std::sqrt(1.0 - kSquaredEccentricity * sine * sine);
+  }
+  return {ToDegrees(Radians(std::atan2(point_m.y, point_m.x))), ToDegrees(Radians(latitude)),
+          height_m};
+}
+
 LocalFrame::LocalFrame(const GeodeticPoint& origin)
     : origin_(origin), geocentric_origin_m_(GeocentricFromGeodetic(origin)) {
   const double latitude = FromDegrees(origin.latitude_deg).value();
@@ -37,6 +55,11 @@ LocalFrame::LocalFrame(const GeodeticPoint& origin)
 
 Point<World> LocalFrame::EastNorthUp(const GeodeticPoint& point) const {
   return {world_from_geocentric_ * (GeocentricFromGeodetic(point) - geocentric_origin_m_)};
+}
+
+GeodeticPoint LocalFrame::Geodetic(const Point<World>& point) const {
+  return GeodeticFromGeocentric(geocentric_origin_m_ +
+                                world_from_geocentric_.Transposed() * point.xyz);
 }
 
 GeodesicWay ShortestWay(const GeodeticPoint& from, const GeodeticPoint& to) {

@@ -30,6 +30,10 @@ struct GeodeticPoint {
 /// Z = ((1 − e²) ν + h) sin φ, with ν = a / √(1 − e² sin² φ).
 Vec3 GeocentricFromGeodetic(const GeodeticPoint& point);
 
+/// The reverse, by fixed-point iteration of the latitude; within 1 nm up to 1,000 km from the
+/// ellipsoid.
+GeodeticPoint GeodeticFromGeocentric(const Vec3& point_m);
+
 /// The tangent frame of a place: east, north, up (World), metres. IOGP Guidance Note 7-2, method
 /// EPSG:9837: the difference of geocentric coordinates, rotated by latitude and longitude of the
 /// origin. Exact for every distance: it contains the curvature of the Earth and no map projection.
@@ -39,6 +43,8 @@ class LocalFrame {
   explicit LocalFrame(const GeodeticPoint& origin);
 
   Point<World> EastNorthUp(const GeodeticPoint& point) const;
+  /// The reverse; its height has the reference of the origin's.
+  GeodeticPoint Geodetic(const Point<World>& point) const;
   const GeodeticPoint& origin() const { return origin_; }
 
  private:

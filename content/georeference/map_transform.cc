@@ -130,6 +130,19 @@ std::optional<Point<World>> MapTransform::EastNorthUp(const MapPoint& point) con
   return parts_->frame.EastNorthUp(*geodetic);
 }
 
+std::optional<MapPoint> MapTransform::OnMap(const GeodeticPoint& point) const {
+  PJ* const operation = parts_->operation.object.get();
+  proj_errno_reset(operation);
+  const PJ_COORD out =
+      proj_trans(operation, PJ_INV,
+                 proj_coord(point.longitude_deg, point.latitude_deg, point.height_m, HUGE_VAL));
+  const MapPoint on_map{out.xyz.x, out.xyz.y, out.xyz.z};
+  if (proj_errno(operation) != 0 || !std::isfinite(on_map.x + on_map.y + on_map.z)) {
+    return std::nullopt;
+  }
+  return on_map;
+}
+
 bool MapTransform::InArea(const GeodeticPoint& point) const {
   return !parts_->crs.area || parts_->crs.area->Contains(point);
 }

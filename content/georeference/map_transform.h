@@ -64,6 +64,10 @@ class MapTransform {
   /// As Geodetic(), in the tangent frame of the place.
   std::optional<Point<World>> EastNorthUp(const MapPoint& point) const;
 
+  /// The point of the map at a geodetic place whose height has the reference of facts(). Unset: as
+  /// of Geodetic().
+  std::optional<MapPoint> OnMap(const GeodeticPoint& point) const;
+
   /// True if the point lies in the CRS's area of use, or if that is not stated.
   bool InArea(const GeodeticPoint& point) const;
 

@@ -95,6 +95,7 @@ PlacedLayer EmptyLayer(const VectorLayer& layer, const MapTransform& transform) 
   placed.name = layer.name;
   placed.crs_name = transform.facts().crs;
   placed.facts = transform.facts();
+  placed.frame = transform.frame();
   placed.empty_features = layer.features.size();
   return placed;
 }

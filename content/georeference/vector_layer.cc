@@ -3,7 +3,6 @@
 #include <cpl_conv.h>
 #include <cpl_vsi.h>
 #include <ogr_api.h>
-#include <ogrsf_frmts.h>
 
 #include <algorithm>
 #include <array>
@@ -12,11 +11,12 @@
 #include <cstdint>
 #include <cstdlib>
 #include <memory>
-#include <mutex>
 #include <utility>
 
+#include "content/georeference/feature_fields.h"
 #include "content/georeference/gdal_handles.h"
 #include "content/georeference/stated_crs.h"
+#include "content/georeference/vector_formats.h"
 
 namespace pleinair::content {
 namespace {
@@ -24,26 +24,21 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kKindsRemedy =
-    "give a GeoJSON, GeoPackage (.gpkg) or Shapefile (.shp); ogr2ogr converts others";
+    "give a GeoJSON, GeoPackage, Shapefile, FlatGeobuf, KML, GPX, DXF or CSV with WKT; ogr2ogr "
+    "converts others";
 constexpr std::size_t kMaxName = 200;     // Bytes, of features and layers.
 constexpr int kMaxNesting = 32;           // Collections in collections.
 constexpr double kMaxStatedNumber = 1e9;  // As MapTransform: beyond are no metres or degrees.
+
+struct GeometryDeleter {
+  void operator()(void* geometry) const { OGR_G_DestroyGeometry(geometry); }
+};
+using OgrGeometry = std::unique_ptr<void, GeometryDeleter>;
 
 struct FeatureDeleter {
   void operator()(void* feature) const { OGR_F_Destroy(feature); }
 };
 using Feature = std::unique_ptr<void, FeatureDeleter>;
-
-/// Only the formats that are tested: others could follow links to files and hosts.
-void RegisterFormats() {
-  static std::once_flag once;
-  std::call_once(once, [] {
-    CPLSetConfigOption("GDAL_DISABLE_READDIR_ON_OPEN", "FALSE");
-    RegisterOGRGeoJSON();
-    RegisterOGRGeoPackage();
-    RegisterOGRShape();
-  });
-}
 
 /// While it lives, this thread opens a Shapefile without its index (.shx).
 class RestoredIndex {
@@ -135,6 +130,23 @@ bool AllFinite(const MapFeature& feature) {
   });
 }
 
+/// The valid geometry of an area; null: it is valid, or has no valid one.
+OgrGeometry Mended(OGRGeometryH area) {
+  const OGRwkbGeometryType type = wkbFlatten(OGR_G_GetGeometryType(area));
+  if ((type != wkbPolygon && type != wkbMultiPolygon) || OGR_G_IsValid(area)) return nullptr;
+  OgrGeometry valid(OGR_G_MakeValid(area));
+  if (!valid || OGR_G_IsEmpty(valid.get())) return nullptr;
+  // Where an area has no width, a line is left of it, which is no border.
+  const OGRwkbGeometryType made = wkbFlatten(OGR_G_GetGeometryType(valid.get()));
+  if (made == wkbPolygon || made == wkbMultiPolygon) return valid;
+  for (int i = OGR_G_GetGeometryCount(valid.get()) - 1; i >= 0; --i) {
+    const OGRwkbGeometryType part =
+        wkbFlatten(OGR_G_GetGeometryType(OGR_G_GetGeometryRef(valid.get(), i)));
+    if (part != wkbPolygon && part != wkbMultiPolygon) OGR_G_RemoveGeometry(valid.get(), i, 1);
+  }
+  return OGR_G_IsEmpty(valid.get()) ? nullptr : std::move(valid);
+}
+
 /// At most `max_length` bytes without control characters, which a terminal would obey.
 std::string PrintableName(std::string name, std::size_t max_length) {
   if (name.size() > max_length) name.resize(max_length);
@@ -158,33 +170,50 @@ void ReadCrs(OGRLayerH layer, bool geojson, VectorLayer* out) {
   out->crs_name = stated.ForPeople();
 }
 
-Result<VectorLayer> ReadLayer(OGRLayerH layer, bool geojson, const std::string& where,
-                              PartCollector* collector, std::size_t* number) {
+/// Counts over all layers of a file.
+struct Counts {
+  PartCollector collector;
+  std::size_t features = 0;
+};
+
+Result<void> ReadGeometry(OGRGeometryH geometry, bool mend_areas, const std::string& where,
+                          PartCollector* collector, MapFeature* read) {
+  const OgrGeometry linear(OGR_G_HasCurveGeometry(geometry, 1)
+                               ? OGR_G_GetLinearGeometry(geometry, 0.0, nullptr)
+                               : nullptr);
+  if (linear) geometry = linear.get();
+  const OgrGeometry valid = mend_areas ? Mended(geometry) : nullptr;
+  read->mended = valid != nullptr;
+  if (collector->Add(valid ? valid.get() : geometry, read)) return {};
+  return InputError(where,
+                    "feature " + std::to_string(read->number) + " exceeds " +
+                        std::to_string(kMaxVertices) + " vertices in all, or is nested too deeply",
+                    "simplify the geometry, or choose a layer");
+}
+
+Result<VectorLayer> ReadLayer(OGRLayerH layer, bool geojson, const VectorQuery& query,
+                              const std::string& where, Counts* counts) {
   VectorLayer out;
   out.name = PrintableName(OGR_L_GetName(layer), kMaxName);
   ReadCrs(layer, geojson, &out);
+  PLEINAIR_ASSIGN_OR_RETURN(const FeatureFields fields,
+                            FeatureFields::Create(OGR_L_GetLayerDefn(layer), query, where));
   OGR_L_ResetReading(layer);
   CPLErrorReset();
   while (const Feature feature{OGR_L_GetNextFeature(layer)}) {
+    if (!fields.Selects(feature.get())) continue;
     MapFeature read;
-    read.number = (*number)++;
+    read.number = counts->features++;
     read.name = NameOfFeature(feature.get());
-    const std::string which = "feature " + std::to_string(read.number);
+    read.values = fields.ValuesOf(feature.get());
     if (OGRGeometryH geometry = OGR_F_GetGeometryRef(feature.get())) {
-      const std::unique_ptr<void, decltype(&OGR_G_DestroyGeometry)> linear(
-          OGR_G_HasCurveGeometry(geometry, 1) ? OGR_G_GetLinearGeometry(geometry, 0.0, nullptr)
-                                              : nullptr,
-          &OGR_G_DestroyGeometry);
-      if (!collector->Add(linear ? linear.get() : geometry, &read)) {
-        return InputError(where,
-                          which + " exceeds " + std::to_string(kMaxVertices) +
-                              " vertices in all, or is nested too deeply",
-                          "simplify the geometry, or choose a layer with --layer");
-      }
+      PLEINAIR_RETURN_IF_ERROR(
+          ReadGeometry(geometry, query.mend_areas, where, &counts->collector, &read));
     }
     if (!AllFinite(read)) {
       return InputError(where,
-                        which + " has a coordinate that is no finite number of metres or degrees",
+                        "feature " + std::to_string(read.number) +
+                            " has a coordinate that is no finite number of metres or degrees",
                         "repair that feature");
     }
     out.features.push_back(std::move(read));
@@ -196,15 +225,21 @@ Result<VectorLayer> ReadLayer(OGRLayerH layer, bool geojson, const std::string& 
   return out;
 }
 
+/// Layers with the points of what other layers have as lines.
+bool RepeatsOthers(const std::string& driver, const std::string& layer) {
+  return driver == "GPX" && (layer == "track_points" || layer == "route_points");
+}
+
 Result<std::vector<VectorLayer>> ReadDataset(const std::string& path, const std::string& where,
-                                             const std::optional<std::string>& wanted) {
-  RegisterFormats();
+                                             const VectorQuery& query) {
+  RegisterVectorFormats();
   const QuietErrors quiet;
   if (IsCutShort(path)) {
     return InputError(where, "is damaged: it has fewer bytes than its header states",
                       "copy or export the file again");
   }
-  constexpr std::array<const char*, 4> kDrivers = {"GeoJSON", "GPKG", "ESRI Shapefile", nullptr};
+  constexpr std::array<const char*, 9> kDrivers = {
+      "GeoJSON", "GPKG", "ESRI Shapefile", "FlatGeobuf", "KML", "GPX", "CSV", "DXF", nullptr};
   const Dataset dataset(GDALOpenEx(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, kDrivers.data(),
                                    nullptr, nullptr));
   if (!dataset) {
@@ -214,20 +249,22 @@ Result<std::vector<VectorLayer>> ReadDataset(const std::string& path, const std:
         message.empty() ? "is no map of vectors that can be read" : "cannot be read: " + message,
         kKindsRemedy);
   }
-  const bool geojson =
-      std::string_view(GDALGetDriverShortName(GDALGetDatasetDriver(dataset.get()))) == "GeoJSON";
+  const std::string driver = GDALGetDriverShortName(GDALGetDatasetDriver(dataset.get()));
   std::vector<VectorLayer> layers;
   std::string names;
-  PartCollector collector;
-  std::size_t number = 0;
+  Counts counts;
+  const std::optional<std::string>& wanted = query.layer;
   for (int i = 0; i < GDALDatasetGetLayerCount(dataset.get()); ++i) {
     OGRLayerH layer = GDALDatasetGetLayer(dataset.get(), i);
     if (!layer) continue;
     const std::string name = OGR_L_GetName(layer);
     names += (names.empty() ? "" : ", ") + name;
-    if (wanted ? name != *wanted : OGR_L_GetGeomType(layer) == wkbNone) continue;
+    if (wanted ? name != *wanted
+               : OGR_L_GetGeomType(layer) == wkbNone || RepeatsOthers(driver, name)) {
+      continue;
+    }
     PLEINAIR_ASSIGN_OR_RETURN(VectorLayer read,
-                              ReadLayer(layer, geojson, where, &collector, &number));
+                              ReadLayer(layer, driver == "GeoJSON", query, where, &counts));
     layers.push_back(std::move(read));
   }
   if (layers.empty() && wanted) {
@@ -240,8 +277,7 @@ Result<std::vector<VectorLayer>> ReadDataset(const std::string& path, const std:
 
 }  // namespace
 
-Result<std::vector<VectorLayer>> ReadVectorLayers(const fs::path& file,
-                                                  const std::optional<std::string>& layer) {
+Result<std::vector<VectorLayer>> ReadVectorLayers(const fs::path& file, const VectorQuery& query) {
   const std::string where = file.string();
   std::error_code error;
   if (!fs::is_regular_file(file, error)) {
@@ -254,11 +290,11 @@ Result<std::vector<VectorLayer>> ReadVectorLayers(const fs::path& file,
   // An absolute name is neither text nor has a prefix of another kind of source.
   const std::string path = fs::absolute(file, error).string();
   if (path.starts_with("/vsi")) return InputError(where, "is no file on a disk", kKindsRemedy);
-  return ReadDataset(path, where, layer);
+  return ReadDataset(path, where, query);
 }
 
 Result<std::vector<VectorLayer>> ParseVectorLayers(std::string_view bytes, const std::string& name,
-                                                   const std::optional<std::string>& layer) {
+                                                   const VectorQuery& query) {
   static std::atomic<int> count{0};
   const std::string folder = "/vsimem/pleinair-" + std::to_string(count++);
   const std::string path = folder + "/map" + fs::path(name).extension().string();
@@ -269,7 +305,7 @@ Result<std::vector<VectorLayer>> ParseVectorLayers(std::string_view bytes, const
   VSIFCloseL(file);
   // GDAL may write the index of a Shapefile into that folder, never to a disk.
   const RestoredIndex restored;
-  auto layers = ReadDataset(path, name, layer);
+  auto layers = ReadDataset(path, name, query);
   VSIRmdirRecursive(folder.c_str());
   return layers;
 }

@@ -67,19 +67,23 @@ RasterWindow WindowAround(const CellAtMarker& cell, double radius_m, const Raste
   return {x, y, width, height};
 }
 
-/// Places of the cells of a window: of height 0, and their change by a metre of height.
+/// Places of the cells of a window: of height 0, and their change by a metre of height. They pass
+/// the transform every 64 m and are interpolated between, where the Earth curves by 0.1 mm.
 class CellPlaces {
  public:
   struct Ray {
     Vec3 foot_m, up;
   };
 
-  CellPlaces(const RasterFile& raster, const MapTransform& transform, const RasterWindow& window)
-      : columns_((window.width - 1) / kStep + 2), rows_((window.height - 1) / kStep + 2) {
+  CellPlaces(const RasterFile& raster, const MapTransform& transform, const RasterWindow& window,
+             double cell_m)
+      : step_(static_cast<int>(std::clamp(kStep_m / cell_m, 1.0, kMaxStep))),
+        columns_((window.width - 1) / step_ + 2),
+        rows_((window.height - 1) / step_ + 2) {
     rays_.reserve(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
     for (int row = 0; row < rows_; ++row) {
       for (int column = 0; column < columns_; ++column) {
-        MapPoint at = raster.CentreOf(window.x + column * kStep, window.y + row * kStep);
+        MapPoint at = raster.CentreOf(window.x + column * step_, window.y + row * step_);
         const auto foot = transform.EastNorthUp(at);
         at.z = kFar_m;
         const auto high = transform.EastNorthUp(at);
@@ -92,8 +96,8 @@ class CellPlaces {
   }
 
   Ray At(int x, int y) const {
-    const int column = x / kStep, row = y / kStep;
-    const double u = 1.0 * (x - column * kStep) / kStep, v = 1.0 * (y - row * kStep) / kStep;
+    const int column = x / step_, row = y / step_;
+    const double u = 1.0 * (x - column * step_) / step_, v = 1.0 * (y - row * step_) / step_;
     const auto mean = [&](Vec3 Ray::*part) {
       return (RayAt(column, row).*part * (1.0 - u) + RayAt(column + 1, row).*part * u) * (1.0 - v) +
              (RayAt(column, row + 1).*part * (1.0 - u) + RayAt(column + 1, row + 1).*part * u) * v;
@@ -102,12 +106,14 @@ class CellPlaces {
   }
 
  private:
-  static constexpr int kStep = 32;  // Cells.
+  static constexpr double kStep_m = 64.0;
+  static constexpr double kMaxStep = 32.0;  // Cells.
   const Ray& RayAt(int column, int row) const {
     return rays_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
                  static_cast<std::size_t>(column)];
   }
 
+  int step_;  // Cells.
   int columns_, rows_;
   std::vector<Ray> rays_;
 };
@@ -214,11 +220,12 @@ Result<ElevationMesh> TriangulateRaster(const std::filesystem::path& file, const
     PLEINAIR_RETURN_IF_ERROR(NothingNear(raster, transform, options.radius_m, where));
   }
   PLEINAIR_ASSIGN_OR_RETURN(Image<float> up_m, raster.Read(window));
-  const CellPlaces places(raster, transform, window);
+  const double cell_m = std::max(Norm(marker->column_m), Norm(marker->row_m));
+  const CellPlaces places(raster, transform, window, cell_m);
   ElevationMesh mesh;
   mesh.facts = transform.facts();
   mesh.crs_name = options.crs.empty() ? raster.crs_name() : options.crs;
-  mesh.cell_m = std::max(Norm(marker->column_m), Norm(marker->row_m));
+  mesh.cell_m = cell_m;
   mesh.cells = RaiseCells(places, options.radius_m, &up_m);
   if (mesh.cells == 0) {
     PLEINAIR_RETURN_IF_ERROR(NothingNear(raster, transform, options.radius_m, where));

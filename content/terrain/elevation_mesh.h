@@ -43,8 +43,8 @@ struct ElevationMesh {
 };
 
 /// Triangulates a raster (RasterFile). The truth is bilinear between the centres of cells, in the
-/// tangent frame: the curvature of the Earth counts. Positions pass MapTransform every 32 cells and
-/// are interpolated between, within 0.1 mm for cells of 5 m. Errors (input): those of RasterFile
+/// tangent frame: the curvature of the Earth counts. Positions pass MapTransform every 64 m and are
+/// interpolated between, within 0.2 mm. Errors (input): those of RasterFile
 /// and of MapTransform; no CRS; nothing within the radius; more than kMaxVertices. With
 /// TerrainHeight::kMarker also: no data at the marker.
 Result<ElevationMesh> TriangulateRaster(const std::filesystem::path& file, const Place& place,

@@ -73,5 +73,30 @@ TEST(LocalFrame, MeasuresTheShortestWay) {
   EXPECT_NEAR(way.azimuth_deg, azimuth_deg + 360.0, 1e-9);
 }
 
+TEST(LocalFrame, GoesBackToGeodeticPlacesAsGeographicLib) {
+  for (const double latitude_deg : {-90.0, -89.9999, -45.0, 0.0, 0.001, 50.0875, 89.0, 90.0}) {
+    for (const double height_m : {-5000.0, 0.0, 8848.0, 100000.0}) {
+      const GeodeticPoint place{14.4213, latitude_deg, height_m};
+      const GeodeticPoint back = GeodeticFromGeocentric(GeocentricFromGeodetic(place));
+      EXPECT_NEAR(back.latitude_deg, latitude_deg, 1e-13) << height_m;
+      EXPECT_NEAR(back.height_m, height_m, 3e-9) << latitude_deg;
+      const LocalFrame frame({-70.0, 30.0, 500.0});
+      const GeodeticPoint through = frame.Geodetic(frame.EastNorthUp(place));
+      EXPECT_NEAR(through.latitude_deg, latitude_deg, 1e-13);
+      EXPECT_NEAR(through.height_m, height_m, 1e-8);
+    }
+  }
+  const GeographicLib::LocalCartesian independent(50.0875, 14.4213, 220.0);
+  const LocalFrame frame({14.4213, 50.0875, 220.0});
+  for (const Vec3& at : {Vec3{0, 0, 0}, Vec3{2000, -1500, 80}, Vec3{-50000, 30000, -200}}) {
+    double latitude_deg = 0.0, longitude_deg = 0.0, height_m = 0.0;
+    independent.Reverse(at.x, at.y, at.z, latitude_deg, longitude_deg, height_m);
+    const GeodeticPoint found = frame.Geodetic({at});
+    EXPECT_NEAR(found.latitude_deg, latitude_deg, 1e-13);
+    EXPECT_NEAR(found.longitude_deg, longitude_deg, 1e-13);
+    EXPECT_NEAR(found.height_m, height_m, 1e-8);
+  }
+}
+
 }  // namespace
 }  // namespace pleinair::content

@@ -60,7 +60,7 @@ TEST(VectorLayer, ReadsAGeoPackageWithItsCrsAndNames) {
 }
 
 TEST(VectorLayer, ListsTheLayersThatAGeoPackageHas) {
-  EXPECT_THAT(MessageOf(ReadVectorLayers(Map("line.gpkg"), "pipes")),
+  EXPECT_THAT(MessageOf(ReadVectorLayers(Map("line.gpkg"), {.layer = "pipes"})),
               HasSubstr("has no layer \"pipes\"; its layers are: roads"));
 }
 

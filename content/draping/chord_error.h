@@ -1,0 +1,14 @@
+#pragma once
+
+#include <span>
+
+#include "content/draping/drape_lines.h"
+
+namespace pleinair::content {
+
+/// The largest vertical distance between draped lines, less their height above it, and the surface
+/// below them, metres. Three places of each segment count; vertical segments do not.
+double MaxChordError(std::span<const LineToDrape> lines, const DrapedPieces& draped,
+                     const SurfaceIndex& surface, const SurfaceRule& rule);
+
+}  // namespace pleinair::content
