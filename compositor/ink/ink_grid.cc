@@ -80,18 +80,16 @@ InkGrid::InkGrid(std::span<const InkShape> shapes) {
   glm::vec2 low(std::numeric_limits<float>::max()), high = -low;
   for (const InkShape& shape : shapes) {
     first_segments_.push_back(static_cast<std::uint32_t>(segments_.size()));
-    const auto add = [&](glm::vec4 from, glm::vec4 to) {
-      segments_.push_back({from, to});
-      const float half_width_m = 0.5F * shape.pen.width_m;
-      low = glm::min(low, glm::min(glm::vec2(from), glm::vec2(to)) - half_width_m);
-      high = glm::max(high, glm::max(glm::vec2(from), glm::vec2(to)) + half_width_m);
+    const float half_width_m = 0.5F * shape.pen.width_m;
+    const auto add = [&](const InkPart& part) {
+      segments_.push_back(part);
+      low = glm::min(low, glm::min(glm::vec2(part.from), glm::vec2(part.to)) - half_width_m);
+      high = glm::max(high, glm::max(glm::vec2(part.from), glm::vec2(part.to)) + half_width_m);
     };
-    for (const InkSegment& segment : shape.segments) {
-      add({segment.from_m, segment.from_arc_m}, {segment.to_m, segment.to_arc_m});
-    }
+    for (const InkPart& part : PartsOfLine(shape.segments, half_width_m)) add(part);
     for (const auto& ring : shape.rings) {
       for (std::size_t i = 0; i + 1 < ring.size(); ++i) {
-        add({ring[i], 0.0F, 0.0F}, {ring[i + 1], 0.0F, 0.0F});
+        add({glm::vec4(ring[i], 0.0F, 0.0F), glm::vec4(ring[i + 1], 0.0F, 0.0F)});
       }
     }
   }
@@ -310,7 +308,7 @@ float InkGrid::MeanOfLine(const InkPen& pen, const Entry& entry, glm::vec2 low_m
                           float cell_m) const {
   float length_m = 0.0F;
   for (std::uint32_t p = entry.first_part; p < entry.first_part + entry.count; ++p) {
-    const Segment& segment = segments_[parts_[p]];
+    const InkPart& segment = segments_[parts_[p]];
     length_m += LengthWithin(glm::vec2(segment.from), glm::vec2(segment.to), low_m, low_m + cell_m);
   }
   // Footprints that take means of a level have about half a cell.
@@ -328,7 +326,7 @@ float InkGrid::MeanOfArea(const Entry& entry, glm::vec2 low_m, float cell_m) con
                           static_cast<float>(i / kPlacesOfMean) + 0.5F);
     float winding = entry.inside;
     for (std::uint32_t p = entry.first_part; p < entry.first_part + entry.count; ++p) {
-      const Segment& edge = segments_[parts_[p]];
+      const InkPart& edge = segments_[parts_[p]];
       winding += glsl::CrossingOfEdge(center, low_m + cell_m / kPlacesOfMean * place,
                                       glm::vec2(edge.from), glm::vec2(edge.to));
     }

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "compositor/ink/ink_segments.h"
 #include "compositor/ink/ink_shape.h"
 
 namespace pleinair::compositor {
@@ -35,10 +36,6 @@ class InkGrid {
     std::uint32_t count = 0;       ///< Of parts; kMeanBit if `inside` is the mean coverage.
     float inside = 0.0F;           ///< Winding number of an area around the cell's center.
   };
-  struct Segment {
-    glm::vec4 from;  ///< w: way along the line, metres.
-    glm::vec4 to;
-  };
 
   InkGrid() = default;
   explicit InkGrid(std::span<const InkShape> shapes);
@@ -52,7 +49,7 @@ class InkGrid {
   /// Indices of segments().
   const std::vector<std::uint32_t>& parts() const { return parts_; }
   /// Segments of lines and edges of areas.
-  const std::vector<Segment>& segments() const { return segments_; }
+  const std::vector<InkPart>& segments() const { return segments_; }
 
   /// A box seen from above that contains ink.
   struct Box {
@@ -87,7 +84,7 @@ class InkGrid {
   std::vector<std::array<std::uint32_t, 2>> cells_;
   std::vector<Entry> entries_;
   std::vector<std::uint32_t> parts_;
-  std::vector<Segment> segments_;
+  std::vector<InkPart> segments_;
   std::vector<std::uint32_t> first_segments_;  // One a shape.
   std::vector<bool> crowded_;                  // Cells of the level that is added last.
 };

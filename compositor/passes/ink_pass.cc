@@ -69,7 +69,7 @@ Result<void> InkPass::Upload(std::span<const InkShape> shapes) {
   std::vector<std::uint32_t> parts = grid_.parts();
   PLEINAIR_RETURN_IF_ERROR(
       UploadRows(parts, kTexelsPerRow, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &tables_.parts));
-  std::vector<InkGrid::Segment> segments = grid_.segments();
+  std::vector<InkPart> segments = grid_.segments();
   PLEINAIR_RETURN_IF_ERROR(
       UploadRows(segments, kSegmentsPerRow, GL_RGBA32F, GL_RGBA, GL_FLOAT, &tables_.segments, 2));
   std::vector<ShapeTexels> texels;

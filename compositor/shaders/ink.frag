@@ -64,11 +64,10 @@ Ink Over(Ink below, vec4 color, int blend, float share, vec3 light) {
   return ink;
 }
 
-/// `place`: map coordinates. `step_x`, `step_y`: the sides of the footprint on the map.
-Ink InkAt(vec3 place, vec3 step_x, vec3 step_y, vec3 light) {
-  vec2 side_x = step_x.xy, side_y = step_y.xy;
+Ink InkAt(InkFootprint seen, vec3 light) {
+  vec3 place = seen.place;
+  vec2 side_x = seen.step_x, side_y = seen.step_y;
   float reach = 0.5 * (length(side_x) + length(side_y));
-  float height = abs(step_x.z) + abs(step_y.z);
   // A pen's pixels count along the footprint's mean side.
   float pixel_m = sqrt(max(length(side_x) * length(side_y), 1e-12)) * u_render_px;
   float needed = 2.0 * (reach + 0.5 * u_widest_px * pixel_m) / u_levels[0].x;
@@ -91,7 +90,7 @@ Ink InkAt(vec3 place, vec3 step_x, vec3 step_y, vec3 light) {
     float inside = uintBitsToFloat(entry.w);
     bool is_mean = (entry.z & kMeanBit) != 0u;
     int parts = int(entry.z & ~kMeanBit);
-    float half_width = pen.x + pen.y * pixel_m;
+    InkBand band = InkBand(pen.x + pen.y * pixel_m, pen.z, pen.w);
     float beyond = 0.0;
     LineCoverage line = NoCoverage();
     for (int p = 0; p < parts; ++p) {
@@ -102,10 +101,9 @@ Ink InkAt(vec3 place, vec3 step_x, vec3 step_y, vec3 light) {
       inside += CrossingOfEdge(center, place.xy, from.xy, to.xy);
       beyond += CoverageBeyondEdge(place.xy, side_x, side_y, from.xy, to.xy);
 #endif
-      line = WithSegment(line, CoverageOfSegment(place, side_x, side_y, height, from, to, half_width,
-                                                 pen.z, pen.w));
+      line = WithSegment(line, CoverageOfSegment(seen, from, to, band));
     }
-    float covered = CoverageOfLine(line, half_width, reach);
+    float covered = CoverageOfLine(line, band.half_width, reach);
 #ifdef AREAS
     covered = kind.y > 0.5 ? clamp(inside + beyond, 0.0, 1.0) : covered;
 #endif
@@ -113,6 +111,22 @@ Ink InkAt(vec3 place, vec3 step_x, vec3 step_y, vec3 light) {
     ink = Over(ink, color, int(kind.x), covered * color.a, light);
   }
   return ink;
+}
+
+/// `spread`: of the footprint over the pixel's own, by the blur.
+InkFootprint FootprintOf(VisibleSurface surface, float spread) {
+  // Steeper surfaces are faces, which have no slope.
+  const float kLeastUp = 0.2;
+  vec3 step_x = spread * mat3(u_map_from_marker) * surface.step_x;
+  vec3 step_y = spread * mat3(u_map_from_marker) * surface.step_y;
+  vec3 normal = mat3(u_map_from_marker) * surface.flat_normal;
+  InkFootprint seen;
+  seen.place = (u_map_from_marker * vec4(surface.position_m, 1.0)).xyz;
+  seen.step_x = step_x.xy;
+  seen.step_y = step_y.xy;
+  seen.height = abs(step_x.z) + abs(step_y.z);
+  seen.slope = abs(normal.z) > kLeastUp ? -normal.xy / normal.z : vec2(0.0);
+  return seen;
 }
 
 #ifdef PAINT
@@ -144,9 +158,7 @@ void main() {
 #ifdef PAINT
     light = LightOn(surface, int(ComponentOf(triangle)));
 #endif
-    Ink piece = InkAt((u_map_from_marker * vec4(surface.position_m, 1.0)).xyz,
-                      spread * mat3(u_map_from_marker) * surface.step_x,
-                      spread * mat3(u_map_from_marker) * surface.step_y, light);
+    Ink piece = InkAt(FootprintOf(surface, spread), light);
     ink.kept += weight * piece.kept;
     ink.lit += weight * piece.lit;
     ink.unlit += weight * piece.unlit;

@@ -7,6 +7,25 @@
 
 #include "compositor/shaders/winding.glsl"
 
+struct InkFootprint {
+  vec3 place;           // The pixel's center on the surface, map coordinates.
+  vec2 step_x, step_y;  // Its sides.
+  float height;         // By how much the surface rises along both.
+  vec2 slope;           // Of the surface, metres up per metre; 0 for steep ones.
+};
+
+// A line as its segments are drawn.
+struct InkBand {
+  float half_width, dash, gap;
+};
+
+// Whether the surface at a place counts as that of a segment, `away` from it, which has the height
+// `z` or differs from it by `differs` at most. The surface is followed along its slope.
+bool IsSameSurface(InkFootprint seen, vec2 away, float z, float differs) {
+  float there = seen.place.z - dot(seen.slope, away);
+  return abs(there - z) <= 0.03f + 0.3f * length(away) + seen.height + differs;
+}
+
 // Width of the footprint along a unit vector.
 float FootprintAlong(vec2 direction, vec2 step_x, vec2 step_y) {
   vec2 sides = vec2(dot(step_x, direction), dot(step_y, direction));
@@ -64,8 +83,9 @@ LineCoverage WithSegment(LineCoverage line, LineCoverage segment) {
 }
 
 // Of a segment with the extent of a point seen from above: a disc, or a line up a vertical face.
-LineCoverage CoverageOfPoint(vec3 place, vec2 step_x, vec2 step_y, float footprint_height, vec4 from,
-                             vec4 to, float half_width, float dash, float gap) {
+LineCoverage CoverageOfPoint(InkFootprint seen, vec4 from, vec4 to, InkBand band) {
+  vec2 step_x = seen.step_x, step_y = seen.step_y;
+  vec3 place = seen.place;
   vec2 away = vec2(place.x - from.x, place.y - from.y);
   float low = min(from.z, to.z), high = max(from.z, to.z);
   bool climbs = high - low > 1e-4f;
@@ -75,29 +95,29 @@ LineCoverage CoverageOfPoint(vec3 place, vec2 step_x, vec2 step_y, float footpri
   vec2 along_face = size > 1e-9f ? longer / size : vec2(1.0f, 0.0f);
   float distance = climbs ? abs(dot(away, along_face)) : length(away);
   vec2 direction = climbs || distance < 1e-9f ? along_face : away / max(distance, 1e-9f);
-  float height = max(footprint_height, 1e-6f);
-  float share = climbs ? clamp((place.z - from.z) / (to.z - from.z), 0.0f, 1.0f) : 0.0f;
-  float dashes = DashCoverage(mix(from.w, to.w, share), height, dash, gap);
+  float height = max(seen.height, 1e-6f);
+  float climbed = clamp(abs(place.z - from.z), 0.0f, high - low);
+  float dashes = DashCoverage(from.w + climbed, height, band.dash, band.gap);
   float overlap = (clamp(place.z + 0.5f * height, low, high) - clamp(place.z - 0.5f * height, low, high)) / height;
-  float beyond = max(max(low - place.z, place.z - high), 0.0f);
-  bool same = beyond <= 0.03f + 2.0f * length(away) + footprint_height;
-  float band = BandCoverage(distance, half_width, FootprintAlong(direction, step_x, step_y));
+  bool same = climbs ? max(low - place.z, place.z - high) <= seen.height
+                     : IsSameSurface(seen, away, from.z, 0.0f);
+  float across = BandCoverage(distance, band.half_width, FootprintAlong(direction, step_x, step_y));
   float footprint = max(abs(step_x.x * step_y.y - step_x.y * step_y.x), 1e-12f);
-  float disc = min(3.14159265f * half_width * half_width / footprint, 1.0f) *
+  float disc = min(3.14159265f * band.half_width * band.half_width / footprint, 1.0f) *
                (distance < 0.5f * FootprintAlong(direction, step_x, step_y) ? 1.0f : 0.0f);
   float visible = same ? (climbs ? dashes : 1.0f) : 0.0f;
   LineCoverage covered;
-  covered.beside = climbs ? visible * band * overlap : 0.0f;
-  covered.round_capped = climbs ? covered.beside : visible * band;
+  covered.beside = climbs ? visible * across * overlap : 0.0f;
+  covered.round_capped = climbs ? covered.beside : visible * across;
   covered.distance = same ? distance : 1e30f;
   covered.flat_capped = climbs ? covered.beside : visible * disc;
   return covered;
 }
 
 // Of a segment with an extent seen from above.
-LineCoverage CoverageOfWay(vec3 place, vec2 step_x, vec2 step_y, float footprint_height, vec4 from,
-                           vec4 to, float half_width, float dash, float gap) {
-  vec2 at = vec2(place.x - from.x, place.y - from.y);
+LineCoverage CoverageOfWay(InkFootprint seen, vec4 from, vec4 to, InkBand band) {
+  vec2 step_x = seen.step_x, step_y = seen.step_y;
+  vec2 at = vec2(seen.place.x - from.x, seen.place.y - from.y);
   vec2 whole = vec2(to.x - from.x, to.y - from.y);
   float size = max(length(whole), 1e-6f);
   vec2 along = whole / size;
@@ -111,31 +131,31 @@ LineCoverage CoverageOfWay(vec3 place, vec2 step_x, vec2 step_y, float footprint
   vec2 direction = beside || distance < 1e-9f ? across : away / max(distance, 1e-9f);
   float share = inside / size;
   float footprint = FootprintAlong(along, step_x, step_y);
-  float dashes = DashCoverage(mix(from.w, to.w, share), footprint, dash, gap);
+  float length_m = length(vec2(size, to.z - from.z));
+  float dashes = DashCoverage(from.w + share * length_m, footprint, band.dash, band.gap);
   // Other surfaces above or below the line show none of it.
-  bool same = abs(place.z - mix(from.z, to.z, share)) <= 0.03f + 2.0f * distance + footprint_height;
+  bool same = IsSameSurface(seen, away, mix(from.z, to.z, share), to.w);
   float visible = same ? dashes : 0.0f;
   LineCoverage covered;
   covered.round_capped =
-      visible * BandCoverage(distance, half_width, FootprintAlong(direction, step_x, step_y));
+      visible * BandCoverage(distance, band.half_width, FootprintAlong(direction, step_x, step_y));
   covered.beside = beside ? covered.round_capped : 0.0f;
   covered.distance = same ? distance : 1e30f;
   float overlap = clamp(way + 0.5f * footprint, 0.0f, size) - clamp(way - 0.5f * footprint, 0.0f, size);
   covered.flat_capped = visible * overlap / footprint *
-                        BandCoverage(abs(dot(at, across)), half_width, FootprintAlong(across, step_x, step_y));
+                        BandCoverage(abs(dot(at, across)), band.half_width, FootprintAlong(across, step_x, step_y));
   return covered;
 }
 
-// `place`: the pixel's center. `from`, `to`: the segment; w is the way along its line.
-// `footprint_height`: of the pixel. Metres.
-LineCoverage CoverageOfSegment(vec3 place, vec2 step_x, vec2 step_y, float footprint_height, vec4 from,
-                               vec4 to, float half_width, float dash, float gap) {
-  bool is_point = length(vec2(to.x - from.x, to.y - from.y)) <= 1e-6f;
+// `from`, `to`: InkPart of compositor/ink/ink_segments.h. Metres.
+LineCoverage CoverageOfSegment(InkFootprint seen, vec4 from, vec4 to, InkBand band) {
+  float size = length(vec2(to.x - from.x, to.y - from.y));
+  bool is_point = size <= max(1e-6f, 1e-3f * abs(to.z - from.z));
   LineCoverage covered;
   if (is_point) {
-    covered = CoverageOfPoint(place, step_x, step_y, footprint_height, from, to, half_width, dash, gap);
+    covered = CoverageOfPoint(seen, from, to, band);
   } else {
-    covered = CoverageOfWay(place, step_x, step_y, footprint_height, from, to, half_width, dash, gap);
+    covered = CoverageOfWay(seen, from, to, band);
   }
   return covered;
 }

@@ -177,6 +177,48 @@ TEST(ComposerInk, DoesNotAddUpWhereALineCrossesItself) {
   EXPECT_EQ(composed(160, 120, 1), composed(120, 120, 1));
 }
 
+TEST(ComposerInk, GoesUpAStepInOneBandAndNotUpAPole) {
+  // A step of 0.2 m whose face runs at 45° to the line, seen from the south-west.
+  Model wedge = MakeBox({-2, -2, 0}, {2, 2, 0.2}, 0.3F);
+  for (Mesh& mesh : wedge.meshes) {
+    for (auto& [x, y, z] : mesh.positions) {
+      const float a = 0.7071F * (x - y), b = 0.7071F * (x + y);
+      x = a + 1.5F;
+      y = b;
+    }
+    for (auto& [x, y, z] : mesh.normals) {
+      const float a = 0.7071F * (x - y), b = 0.7071F * (x + y);
+      x = a;
+      y = b;
+    }
+  }
+  const PlacedModel pole = Place(MakeBox({-1.04, -0.04, 0}, {-0.96, 0.04, 1.0}, 0.3F), true);
+  // From the ground onto the step, whose corner at the line is at x = −1.33.
+  InkShape line;
+  line.style = {{0, 0, 0}, 1.0F, InkBlend::kStain};
+  line.pen.width_m = 0.3F;
+  line.segments = {{{-2.5F, 0.5F, 0.0F}, {-0.828F, 0.5F, 0.0F}, 0.0F, 1.672F},
+                   {{-0.828F, 0.5F, 0.0F}, {-0.828F, 0.5F, 0.2F}, 1.672F, 1.872F},
+                   {{-0.828F, 0.5F, 0.2F}, {0.5F, 0.5F, 0.2F}, 1.872F, 3.2F}};
+  InkScene scene{.models = {kGround, Place(wedge, true)}};
+  const RgbImage picture = EvenPicture(150);
+  const RgbImage composed = ComposeInk(scene, {line}, picture);
+  // From above, the band has no gap where it climbs: the middle of the line and 0.1 m to its sides.
+  for (const double y : {0.4, 0.5, 0.6}) {
+    for (double x = -1.4; x < 0.4; x += 0.01) {
+      const double z = x - y > -1.328 ? 0.2 : 0.0;
+      const int u = static_cast<int>(std::lround(159.5 + 300.0 * x / (3.0 - z)));
+      const int v = static_cast<int>(std::lround(119.5 - 300.0 * y / (3.0 - z)));
+      EXPECT_EQ(composed(u, v, 1), 0) << x << " " << y;
+    }
+  }
+  line.segments = {{{-1.5F, 0.0F, 0.0F}, {-0.5F, 0.0F, 0.0F}, 0.0F, 1.0F}};
+  scene.models = {kGround, pole};
+  const RgbImage at_pole = ComposeInk(scene, {line}, picture);
+  EXPECT_EQ(at_pole(10, 119, 1), picture(10, 119, 1)) << "on the pole's top";
+  EXPECT_EQ(at_pole(90, 119, 1), 0) << "on the ground";
+}
+
 TEST(ComposerInk, StaysOffSurfacesAboveTheLine) {
   const PlacedModel table = Place(MakeBox({-0.3, -0.3, 0.7}, {0.3, 0.3, 0.75}, 0.3F), true);
   const RgbImage picture = EvenPicture(150);

@@ -25,6 +25,8 @@ namespace {
 struct Footprint {
   glm::vec2 center, x, y;
 
+  glsl::InkFootprint Seen() const { return {glm::vec3(center, 0.0F), x, y, 0.0F, {0.0F, 0.0F}}; }
+
   template <typename Inside>
   double Mean(const Inside& inside) const {
     constexpr int kSide = 64;
@@ -53,9 +55,8 @@ float LineCoverage(const Footprint& seen, const std::vector<glm::vec2>& line, fl
     const float size = glm::length(line[i + 1] - line[i]);
     covered = glsl::WithSegment(
         covered,
-        glsl::CoverageOfSegment(glm::vec3(seen.center, 0.0F), seen.x, seen.y, 0.0F,
-                                glm::vec4(line[i], 0.0F, way),
-                                glm::vec4(line[i + 1], 0.0F, way + size), half_width, dash, gap));
+        glsl::CoverageOfSegment(seen.Seen(), glm::vec4(line[i], 0.0F, way),
+                                glm::vec4(line[i + 1], 0.0F, 0.0F), {half_width, dash, gap}));
     way += size;
   }
   return glsl::CoverageOfLine(covered, half_width, seen.Reach());
@@ -184,8 +185,9 @@ TEST_F(InkCoverage, OfAnAreaAlsoIfItIsThin) {
 
 TEST_F(InkCoverage, IsNotOnASurfaceAboveTheLine) {
   const auto covered = [](float height_m) {
-    return glsl::CoverageOfSegment(glm::vec3(0.0F, 0.01F, height_m), {0.01F, 0.0F}, {0.0F, 0.01F},
-                                   0.0F, {-1, 0, 0, 0}, {1, 0, 0, 2}, 0.1F, 0.0F, 0.0F)
+    return glsl::CoverageOfSegment(
+               {glm::vec3(0.0F, 0.01F, height_m), {0.01F, 0.0F}, {0.0F, 0.01F}, 0.0F, {0.0F, 0.0F}},
+               {-1, 0, 0, 0}, {1, 0, 0, 0}, {0.1F, 0.0F, 0.0F})
         .round_capped;
   };
   EXPECT_EQ(covered(0.0F), 1.0F);
@@ -198,8 +200,9 @@ TEST_F(InkCoverage, OfALineUpAWallIsABandOfItsWidth) {
   const auto covered = [](float x, float z, float half_width) {
     const auto line = glsl::WithSegment(
         glsl::NoCoverage(),
-        glsl::CoverageOfSegment(glm::vec3(x, 0.0F, z), {0.005F, 0.0F}, {0.0F, 0.0F}, 0.005F,
-                                {0, 0, 0, 0}, {0, 0, 2, 2}, half_width, 0.0F, 0.0F));
+        glsl::CoverageOfSegment(
+            {glm::vec3(x, 0.0F, z), {0.005F, 0.0F}, {0.0F, 0.0F}, 0.005F, {0.0F, 0.0F}},
+            {0, 0, 0, 0}, {0, 0, 2, 0}, {half_width, 0.0F, 0.0F}));
     return glsl::CoverageOfLine(line, half_width, 0.0025F);
   };
   EXPECT_NEAR(covered(0.05F, 1.0F, 0.1F), 1.0F, 1e-4F);
@@ -218,9 +221,12 @@ TEST_F(InkCoverage, OfADiscIsItsArea) {
         const auto line = glsl::WithSegment(
             glsl::NoCoverage(),
             glsl::CoverageOfSegment(
-                glm::vec3(0.1F * static_cast<float>(x), 0.1F * static_cast<float>(y), 0.0F),
-                {0.1F, 0.0F}, {0.0F, 0.1F}, 0.0F, {0.013F, 0.021F, 0, 0}, {0.013F, 0.021F, 0, 0},
-                radius, 0.0F, 0.0F));
+                {glm::vec3(0.1F * static_cast<float>(x), 0.1F * static_cast<float>(y), 0.0F),
+                 {0.1F, 0.0F},
+                 {0.0F, 0.1F},
+                 0.0F,
+                 {0.0F, 0.0F}},
+                {0.013F, 0.021F, 0, 0}, {0.013F, 0.021F, 0, 0}, {radius, 0.0F, 0.0F}));
         sum += glsl::CoverageOfLine(line, radius, 0.1F);
       }
     }
@@ -248,14 +254,13 @@ float ByCells(const InkGrid& grid, std::uint32_t shape, const InkShape& of, cons
     float inside = entry.inside;
     glsl::LineCoverage line = glsl::NoCoverage();
     for (std::uint32_t p = entry.first_part; p < entry.first_part + entry.count; ++p) {
-      const InkGrid::Segment& part = grid.segments()[grid.parts()[p]];
+      const InkPart& part = grid.segments()[grid.parts()[p]];
       inside +=
           glsl::CrossingOfEdge(center, seen.center, glm::vec2(part.from), glm::vec2(part.to)) +
           glsl::CoverageBeyondEdge(seen.center, seen.x, seen.y, glm::vec2(part.from),
                                    glm::vec2(part.to));
-      line = glsl::WithSegment(
-          line, glsl::CoverageOfSegment(glm::vec3(seen.center, 0.0F), seen.x, seen.y, 0.0F,
-                                        part.from, part.to, 0.5F * of.pen.width_m, 0.0F, 0.0F));
+      line = glsl::WithSegment(line, glsl::CoverageOfSegment(seen.Seen(), part.from, part.to,
+                                                             {0.5F * of.pen.width_m, 0.0F, 0.0F}));
     }
     return of.rings.empty() ? glsl::CoverageOfLine(line, 0.5F * of.pen.width_m, seen.Reach())
                             : std::clamp(inside, 0.0F, 1.0F);

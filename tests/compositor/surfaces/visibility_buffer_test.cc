@@ -100,8 +100,8 @@ TEST_F(VisibilityBufferTest, KeepsSteadyRatiosByTheNumbersOfTheirTriangles) {
   const std::vector<LinearShadowRatio> of_first{linear_ratios(3.0F), linear_ratios(4.0F)},
       of_second{linear_ratios(7.0F)};
   const std::array<int, 2> first_ends{6, 12}, second_ends{6, 9};
-  const std::vector<SortedTriangles> sorted{{first.indices, first_ends, of_first},
-                                            {second.indices, second_ends, of_second}};
+  const std::vector<SortedTriangles> sorted{{first.indices, first_ends, of_first, 2},
+                                            {second.indices, second_ends, of_second, 2}};
   ASSERT_TRUE(table->SetTriangles(sorted));
   table->BindLinearRatios();
   glActiveTexture(GL_TEXTURE1);
@@ -125,7 +125,7 @@ TEST_F(VisibilityBufferTest, GrowsWhereMoreTrianglesChangeAndKeepsItsMemoryWhere
   std::vector<Triangles> seen;
   for (const int end : {0, 3, kAll, 6, kAll}) {
     const std::array<int, 1> ends{end};
-    ASSERT_TRUE(table->SetTriangles(std::vector<SortedTriangles>{{mesh.indices, ends, {}}}));
+    ASSERT_TRUE(table->SetTriangles(std::vector<SortedTriangles>{{mesh.indices, ends, {}, 0}}));
     seen.push_back(Bound(*table));
     for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(end) / 3; ++i) {
       ASSERT_THAT(seen.back().texels[i],
