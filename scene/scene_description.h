@@ -112,6 +112,9 @@ struct SceneContent {
   std::vector<ModelReference> objects;   ///< Virtual objects.
   std::vector<LeafDescription> leaves;   ///< In place of materials of the objects.
   std::vector<DrapeDescription> drapes;  ///< Maps on the phantoms.
+
+  /// True if there is something to draw into pictures.
+  bool DrawsAnything() const { return !objects.empty() || !drapes.empty(); }
 };
 
 /// The user's description of the scene: everything that the compositor may use. Holds no ground

@@ -64,7 +64,7 @@ Result<std::unique_ptr<SceneRenderer>> SceneRenderer::Create(
     placed.push_back(std::move(model));
   }
   PLEINAIR_RETURN_IF_ERROR(ReplaceByLeaves(scene.leaves, scene.place_time.start, &placed));
-  if (scene.objects.empty()) return renderer;
+  if (!scene.DrawsAnything()) return renderer;
   compositor::ComposerOptions composing = options;
   if (!scene.camera.response.empty()) {
     renderer->summary_.response.source = ResponseSummary::Source::kStated;

@@ -230,7 +230,12 @@ Result<void> RunLive(const CLI::App& command, const LiveArguments& arguments) {
       std::in_place, arguments.input.camera, [] {}, "no image was composed");
   PLEINAIR_ASSIGN_OR_RETURN(auto session,
                             LiveSession::Create(std::move(source.frames), std::move(options),
-                                                [&deadline] { deadline.reset(); }));
+                                                [&](const std::vector<std::string>& warnings) {
+                                                  deadline.reset();
+                                                  for (const std::string& warning : warnings) {
+                                                    std::cerr << "warning: " << warning << '\n';
+                                                  }
+                                                }));
   LiveReport report(arguments.report_every_s.value_or(arguments.json ? kReportEvery_s : 0.0));
   auto last = arguments.headless
                   ? DrawAll(*session, source, arguments, &report)

@@ -3,6 +3,7 @@
 #include <string>
 #include <utility>
 
+#include "app/drape/scene_ink.h"
 #include "session/scene_marker.h"
 
 namespace pleinair::app {
@@ -33,21 +34,21 @@ LiveSession::LiveSession(std::unique_ptr<devices::FrameSource> source, LiveOptio
       clock_(options_.start) {}
 
 Result<std::unique_ptr<LiveSession>> LiveSession::Create(
-    std::unique_ptr<devices::FrameSource> source, LiveOptions options,
-    const std::function<void()>& loaded) {
+    std::unique_ptr<devices::FrameSource> source, LiveOptions options, const Loaded& loaded) {
   std::unique_ptr<LiveSession> session(new LiveSession(std::move(source), std::move(options)));
   PLEINAIR_RETURN_IF_ERROR(session->Prepare(loaded));
   return session;
 }
 
-Result<void> LiveSession::Prepare(const std::function<void()>& loaded) {
+Result<void> LiveSession::Prepare(const Loaded& loaded) {
   session::PipelineOptions pipeline{.composer = options_.composer, .light = options_.light};
   pipeline.refine_markers = options_.lossless || options_.output;
   if (!options_.lossless) pipeline.kept_observations = kObservationsKept;
   pipeline.places_anchors_in_background = !options_.lossless;
   PLEINAIR_ASSIGN_OR_RETURN(pipeline_,
                             session::Pipeline::Create(options_.camera, options_.scene, pipeline));
-  if (loaded) loaded();
+  PLEINAIR_ASSIGN_OR_RETURN(const auto ink, DrawMaps(options_.scene, pipeline_.get()));
+  if (loaded) loaded(ink ? ink->warnings() : std::vector<std::string>());
   if (options_.record) PLEINAIR_RETURN_IF_ERROR(recording_.Start(*options_.record));
   PLEINAIR_ASSIGN_OR_RETURN(sightings_, SightingFiles::Create(options_.detections, options_.output,
                                                               options_.camera, options_.scene));

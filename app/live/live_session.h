@@ -70,12 +70,14 @@ struct DrawnFrame {
 /// waits for a slower stage, unless `lossless`.
 class LiveSession {
  public:
+  /// Receives warnings about the scene, for the user.
+  using Loaded = std::function<void(const std::vector<std::string>& warnings)>;
   /// Loads the scene, starts the threads and prepares the first light. `loaded` is called between:
-  /// when the models are loaded, and no file is made yet. Errors: models, OpenGL, the marker, a
-  /// recording or detections file that cannot be written.
+  /// when models and maps are loaded, and no file is made yet. Errors: models, maps, OpenGL, the
+  /// marker, a recording or detections file that cannot be written.
   static Result<std::unique_ptr<LiveSession>> Create(std::unique_ptr<devices::FrameSource> source,
                                                      LiveOptions options,
-                                                     const std::function<void()>& loaded = {});
+                                                     const Loaded& loaded = {});
   ~LiveSession();
 
   /// Draws the newest tracked frame; nothing when there is none within `limit`. Errors: as the
@@ -129,7 +131,7 @@ class LiveSession {
   };
 
   LiveSession(std::unique_ptr<devices::FrameSource> source, LiveOptions options);
-  Result<void> Prepare(const std::function<void()>& loaded);
+  Result<void> Prepare(const Loaded& loaded);
   void Capture();
   void Track();
   Result<void> CheckSize(const devices::Frame& frame) const;

@@ -123,6 +123,7 @@ Result<void> ComposeFrames(ReplayState& state) {
                                                   {bar.Progress(), &state.times}, earlier));
   PLEINAIR_RETURN_IF_ERROR(writer.Finish());
   state.times.Add(writer.times());
+  if (state.ink) state.report.scene.maps = state.ink->facts();
   state.report.light_changes.mode = state.options.light.changes;
   state.report.light_changes.rows = WithMissingFrames(rows, frames_seen);
   return WriteLight(state);

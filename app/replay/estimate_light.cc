@@ -63,7 +63,7 @@ std::shared_ptr<const compositor::DaylightCoefficients> TraceCoefficients(Replay
 }
 
 Result<void> TraceLight(ReplayState& state) {
-  if (state.report.path.empty() || state.scene().objects.empty()) return {};
+  if (state.report.path.empty() || !state.scene().DrawsAnything()) return {};
   if (!state.options.light.cache.empty()) {
     state.times.Measure("trace light", [&] { return TraceCoefficients(state) != nullptr; });
   }

@@ -107,6 +107,8 @@ Result<PreparedReplay> Prepare(ReplayState& state) {
       session::Pipeline::Create(
           camera, *recording.scene,
           {.composer = options.composer, .light = std::move(light), .image_size = options.size}));
+  PLEINAIR_ASSIGN_OR_RETURN(state.ink, DrawMaps(*recording.scene, state.pipeline.get()));
+  if (state.ink) state.report.warnings = state.ink->warnings();
   Describe(recording, state, &state.report);
   if (!recording.camera_note.empty()) state.report.warnings.push_back(recording.camera_note);
   return PreparedReplay{std::move(recording), std::move(trajectory)};
@@ -141,6 +143,9 @@ std::vector<fs::path> InputsOf(const devices::Recording& recording, const Replay
   if (recording.sound) files.push_back(recording.sound->film);
   const std::string& response = recording.scene->camera.response;
   if (!response.empty()) files.emplace_back(response);
+  for (const scene::DrapeDescription& drape : recording.scene->drapes) {
+    files.push_back(drape.source.file);
+  }
   for (const auto* models : {&recording.scene->phantoms, &recording.scene->objects}) {
     for (const scene::ModelReference& model : *models) {
       if (model.file.empty()) continue;
@@ -169,7 +174,7 @@ void Warn(ReplayState& state) {
                         state.renderer().phantom_rays()));
   add(DrawingWarnings(state.renderer().samples()));
   add(CloudWarnings(state.scene()));
-  if (state.scene().objects.empty()) {
+  if (!state.scene().DrawsAnything()) {
     warnings.push_back(NoObjectWarning(state.options.scene.has_value()));
   } else if (AssumesGround(state.scene())) {
     warnings.emplace_back(

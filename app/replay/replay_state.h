@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/drape/scene_ink.h"
 #include "app/output/output_folder.h"
 #include "app/replay/frame_warnings.h"
 #include "app/replay/replay_options.h"
@@ -28,6 +29,7 @@ struct ReplayState {
   OutputFolder folder;
   WrittenOutputs write = options.write;  ///< For a photograph: frames and no video.
   std::unique_ptr<session::Pipeline> pipeline{};
+  std::shared_ptr<SceneInk> ink{};                  ///< Null: the scene has no maps.
   FrameWarnings frame_warnings{};                   ///< From the tracker.
   std::vector<exports::MarkersMessage> messages{};  ///< Lines of detections.jsonl, for MCAP.
   std::int64_t first_stamp_ns = 0;                  ///< Time of the first frame in the range.
@@ -49,7 +51,7 @@ struct ReplayState {
   session::SceneRenderer& renderer() const { return pipeline->renderer(); }
   /// True if a time-lapse is requested and can be drawn. Valid once the trajectory is known.
   bool DrawsDay() const {
-    return options.time_lapse && !report.path.empty() && !scene().objects.empty();
+    return options.time_lapse && !report.path.empty() && scene().DrawsAnything();
   }
 };
 

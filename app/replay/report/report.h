@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/drape/scene_ink.h"
 #include "app/output/light_csv.h"
 #include "base/stage_times.h"
 #include "compositor/antialiasing.h"
@@ -52,6 +53,7 @@ struct ReplayedScene {
   scene::PlaceTime place_time;
   scene::Cloudiness cloudiness = scene::Cloudiness::kClear;
   std::size_t virtual_objects = 0, phantoms = 0;
+  std::vector<InkFacts> maps;  ///< As they were laid last.
 };
 
 /// What the camera's poses rest on, besides the marker.

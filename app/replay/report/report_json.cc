@@ -320,6 +320,24 @@ Json TimingsJson(const ReplayReport& report) {
   return timings;
 }
 
+/// The maps that lie on the phantoms.
+Json ContentJson(const std::vector<InkFacts>& maps) {
+  Json content = Json::array();
+  for (const InkFacts& map : maps) {
+    content.push_back({{"kind", "drape"},
+                       {"file", map.file},
+                       {"crs", map.crs},
+                       {"features", map.features},
+                       {"shapes", map.shapes},
+                       {"vertices_in", map.drape.vertices_in},
+                       {"vertices_out", map.drape.vertices_out},
+                       {"off_target", map.drape.off_target},
+                       {"clipped", map.drape.clipped},
+                       {"lay_milliseconds", Rounded(map.milliseconds)}});
+  }
+  return content;
+}
+
 }  // namespace
 
 std::string ReportJson(const ReplayReport& report) {
@@ -350,6 +368,7 @@ std::string ReportJson(const ReplayReport& report) {
   json["cloudiness"] = CloudinessName(report.scene.cloudiness);
   json["virtual_objects"] = report.scene.virtual_objects;
   json["phantoms"] = report.scene.phantoms;
+  json["content"] = ContentJson(report.scene.maps);
   json["antialiasing"] = {{"method", compositor::NameOf(report.film.antialiasing.method)},
                           {"samples", SamplesOf(report.film)},
                           {"mixed_pixels", MixedPixelsOf(report)}};
