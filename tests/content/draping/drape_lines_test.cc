@@ -63,6 +63,7 @@ TEST(DrapeLines, LieInTheTriangulationOfAField) {
   const SurfaceIndex index = IndexOf(maker.Take());
   std::mt19937 random(7);
   std::vector<LineToDrape> lines;
+  lines.reserve(20);
   for (int i = 0; i < 20; ++i) lines.push_back(RandomLine(&random, 49.0, 6));
   const DrapedPieces draped = DrapeLines(lines, index, {});
   ASSERT_EQ(draped.pieces.size(), lines.size());
