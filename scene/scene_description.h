@@ -30,11 +30,11 @@ struct CloudDescription {
 
 /// Place and start time of the recording.
 struct PlaceTime {
-  double latitude_deg = 0.0;   ///< North positive, -90…90.
-  double longitude_deg = 0.0;  ///< East positive, -180…180.
-  double height_m = 0.0;       ///< Above sea level, or above the ellipsoid of WGS 84.
-  bool above_ellipsoid = false;
-  UtcTime start;  ///< UTC of the first frame.
+  double latitude_deg = 0.0;     ///< North positive, -90…90.
+  double longitude_deg = 0.0;    ///< East positive, -180…180.
+  double height_m = 0.0;         ///< Above sea level, or above the ellipsoid of WGS 84.
+  UtcTime start;                 ///< UTC of the first frame.
+  bool above_ellipsoid = false;  ///< What height_m is measured from; else from the sea.
 };
 
 /// The reference marker of the scene, or the image target used in its place.

@@ -146,8 +146,8 @@ Result<PlaceTime> CompletePlaceTime(const PlaceTimeFacts& facts, const std::stri
                       "add its time as RFC 3339, for example 2025-09-14T11:05:00Z");
   }
   const double height_m = facts.height_m.value_or(0.0);
-  return PlaceTime{*facts.latitude_deg, *facts.longitude_deg, height_m,
-                   facts.above_ellipsoid.value_or(false), *facts.start};
+  return PlaceTime{*facts.latitude_deg, *facts.longitude_deg, height_m, *facts.start,
+                   facts.above_ellipsoid.value_or(false)};
 }
 
 constexpr const char* kOurFamily = "sg";  // Default family of a marker with anchors.

@@ -6,6 +6,7 @@
 #include "app/drape/phantom_surface.h"
 #include "app/place/marker_place.h"
 #include "app/place/transform_warnings.h"
+#include "base/parallel_for.h"
 #include "content/draping/plumb_lines.h"
 #include "content/georeference/placed_features.h"
 #include "files/csv.h"
@@ -102,14 +103,14 @@ Result<FeatureFacts> ReadFacts(const scene::DrapeDescription& drape,
 }
 
 /// Coordinates that are metres of the marker.
-void AddMarkerLines(const scene::SceneDescription& scene, std::vector<VectorLayer> layers,
+void AddMarkerLines(const scene::SceneDescription& scene, const std::vector<VectorLayer>& layers,
                     MapLines* map) {
   const Mat3 world_from_marker = scene::MarkerFromWorld(scene.marker).Transposed();
   const content::Place place = PlaceOfMarker(scene);
   map->frame = content::LocalFrame({place.longitude_deg, place.latitude_deg, place.height_m});
   map->crs = scene::kMarkerCrs;
-  for (VectorLayer& layer : layers) {
-    for (MapFeature& feature : layer.features) {
+  for (const VectorLayer& layer : layers) {
+    for (const MapFeature& feature : layer.features) {
       for (const content::GeometryPart& part : feature.parts) {
         LineToDrape line;
         line.feature = static_cast<std::uint32_t>(feature.number);
@@ -123,6 +124,18 @@ void AddMarkerLines(const scene::SceneDescription& scene, std::vector<VectorLaye
       }
     }
   }
+}
+
+/// Moves each vertex along its plumb line.
+void MoveToSurface(const content::SurfaceIndex& surface, const content::SurfaceRule& rule,
+                   content::PlacedLayer* layer) {
+  std::vector<content::PlacedPart*> parts;
+  for (content::PlacedFeature& feature : layer->features) {
+    for (content::PlacedPart& part : feature.parts) parts.push_back(&part);
+  }
+  ParallelFor(parts.size(), 0, [&](std::size_t i) {
+    content::MoveAlongPlumbLines(layer->frame, surface, rule, parts[i]->geodetic, parts[i]->points);
+  });
 }
 
 /// Coordinates of a coordinate reference system.
@@ -152,12 +165,9 @@ Result<void> AddPlacedLines(const scene::SceneDescription& scene,
     for (const std::string& warning : TransformWarnings(layer.facts)) {
       map->warnings.push_back(warning);
     }
+    if (!map->options.own_heights) MoveToSurface(surface, map->options.on, &layer);
     for (content::PlacedFeature& feature : layer.features) {
       for (content::PlacedPart& part : feature.parts) {
-        if (!map->options.own_heights) {
-          content::MoveAlongPlumbLines(layer.frame, surface, map->options.on, part.geodetic,
-                                       part.points);
-        }
         LineToDrape line;
         line.feature = static_cast<std::uint32_t>(feature.number);
         line.kind = part.kind;
@@ -190,7 +200,7 @@ Result<MapLines> PlaceMap(const scene::SceneDescription& scene,
   map.options.own_heights = HasOwnHeights(drape);
   PLEINAIR_ASSIGN_OR_RETURN(const FeatureFacts facts, ReadFacts(drape, layers, &map));
   if (drape.source.crs == scene::kMarkerCrs) {
-    AddMarkerLines(scene, std::move(layers), &map);
+    AddMarkerLines(scene, layers, &map);
   } else {
     PLEINAIR_RETURN_IF_ERROR(AddPlacedLines(scene, drape, std::move(layers), surface, &map));
   }

@@ -10,6 +10,7 @@
 namespace pleinair::content {
 namespace {
 
+constexpr double kMaxPairs = 7.0;     // Of places of a segment, beside its middle.
 constexpr double kVertical_m = 1e-3;  // Segments shorter than this in plan climb a face.
 
 double ErrorOfPiece(const DrapedPiece& piece, double above_m, const SurfaceIndex& surface,
@@ -17,9 +18,12 @@ double ErrorOfPiece(const DrapedPiece& piece, double above_m, const SurfaceIndex
   double largest_m = 0.0;
   for (std::size_t i = 1; i < piece.vertices.size(); ++i) {
     const Vec3 from = piece.vertices[i - 1].at.xyz, way = piece.vertices[i].at.xyz - from;
-    if (std::hypot(way.x, way.y) <= kVertical_m) continue;
-    for (const double share : {0.25, 0.5, 0.75}) {
-      const Vec3 at = from + way * share;
+    const double length_m = std::hypot(way.x, way.y);
+    if (length_m <= kVertical_m) continue;
+    // An odd number: the middle is among them.
+    const int places = 1 + 2 * static_cast<int>(std::min(std::floor(length_m / 2.0), kMaxPairs));
+    for (int place = 0; place < places; ++place) {
+      const Vec3 at = from + way * ((place + 0.5) / places);
       const std::optional<double> height_m = surface.HeightAt({at.x, at.y}, rule);
       if (height_m) largest_m = std::max(largest_m, std::fabs(at.z - above_m - *height_m));
     }

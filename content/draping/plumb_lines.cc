@@ -11,7 +11,9 @@ namespace {
 
 constexpr double kEarthRadius_m = 6.371e6;
 constexpr double kEnough_m = 1e-5;  // Of a shift.
-constexpr int kSteps = 2;           // Each leaves d/R of the shift before, times the slope.
+// A step leaves d/R of its shift times the slope: 0.15 mm of 0.05 m at 2 km on a slope of 10.
+constexpr int kSteps = 2;
+constexpr double kShiftForAnother_m = 0.05;
 
 }  // namespace
 
@@ -27,9 +29,11 @@ void MoveAlongPlumbLines(const LocalFrame& frame, const SurfaceIndex& surface,
         const std::optional<double> height_m = surface.HeightAt({point.x, point.y}, rule);
         if (!height_m) break;
         const double rise_m = *height_m - point.z;
-        if (std::fabs(rise_m) * std::hypot(point.x, point.y) < kEnough_m * kEarthRadius_m) break;
+        const double shift_m = std::fabs(rise_m) * std::hypot(point.x, point.y) / kEarthRadius_m;
+        if (shift_m < kEnough_m) break;
         at.height_m += rise_m;
         points[i] = frame.EastNorthUp(at);
+        if (shift_m < kShiftForAnother_m) break;
       }
     }
   });

@@ -100,8 +100,8 @@ std::optional<ScreenHeight> SearchScreen(const SurfaceView& view, Vec2 east_nort
   if (!(column.high_m > column.low_m) || !ClipToPicture(view, &column)) return std::nullopt;
   Probe high = ProbeAt(view, column, column.high_m), low = ProbeAt(view, column, column.low_m);
   for (int step = 0; step < kMaxSteps && Norm(high.pixel - low.pixel) > kEnough_px; ++step) {
-    Probe middle = ProbeAt(view, column, 0.5 * (high.height_m + low.height_m));
-    (middle.below_m < 0.0 ? high : low) = std::move(middle);
+    const Probe middle = ProbeAt(view, column, 0.5 * (high.height_m + low.height_m));
+    (middle.below_m < 0.0 ? high : low) = middle;
   }
   // One secant step, where both ends see a surface and lie on its two sides.
   Probe found = low.sight ? low : high;

@@ -76,11 +76,6 @@ Result<SurfaceIndex> SurfaceIndex::Create(SurfaceMesh mesh) {
   return SurfaceIndex(std::move(mesh), PlanTree(boxes), std::move(vertical));
 }
 
-std::array<Vec3, 3> SurfaceIndex::Corners(std::uint32_t triangle) const {
-  const auto& [a, b, c] = mesh_.triangles[triangle];
-  return {mesh_.vertices[a].xyz, mesh_.vertices[b].xyz, mesh_.vertices[c].xyz};
-}
-
 std::optional<double> SurfaceIndex::HeightAt(Vec2 east_north, const SurfaceRule& rule) const {
   std::optional<double> chosen;
   tree_.VisitAlong(east_north, east_north, kOnLine_m, [&](std::uint32_t triangle) {

@@ -13,8 +13,9 @@
 
 namespace pleinair::content {
 
-/// Distance in plan within which a point counts as lying on a line, metres: rounding at 10⁵ m.
-inline constexpr double kOnLine_m = 1e-8;
+/// Distance in plan within which a point counts as lying on a line, metres: rounding of models,
+/// whose coordinates have single precision.
+inline constexpr double kOnLine_m = 1e-6;
 
 /// Triangles that map data is draped on, in the tangent frame of the place, metres.
 struct SurfaceMesh {
@@ -66,7 +67,10 @@ class SurfaceIndex {
   }
 
   const SurfaceMesh& mesh() const { return mesh_; }
-  std::array<Vec3, 3> Corners(std::uint32_t triangle) const;
+  std::array<Vec3, 3> Corners(std::uint32_t triangle) const {
+    const auto& [a, b, c] = mesh_.triangles[triangle];
+    return {mesh_.vertices[a].xyz, mesh_.vertices[b].xyz, mesh_.vertices[c].xyz};
+  }
   /// Faces within 10⁻⁶ rad of the vertical: seen from above they are lines.
   bool IsVertical(std::uint32_t triangle) const { return vertical_[triangle]; }
 

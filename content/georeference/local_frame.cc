@@ -27,18 +27,21 @@ Vec3 GeocentricFromGeodetic(const GeodeticPoint& point) {
 }
 
 GeodeticPoint GeodeticFromGeocentric(const Vec3& point_m) {
-  // Heights up to 1,000 km shrink the error by e² h / (a + h) < 0.001 a step.
-  constexpr int kSteps = 7;
+  // A step shrinks the error by e² h / (a + h): by 0.001 for 1,000 km, by 10⁻⁶ near the ground.
+  constexpr int kMaxSteps = 7;
+  constexpr double kRounding_rad = 2e-16;
   const double from_axis_m = std::hypot(point_m.x, point_m.y);
   double latitude = std::atan2(point_m.z, from_axis_m * (1.0 - kSquaredEccentricity));
   double height_m = 0.0;
-  for (int i = 0; i < kSteps; ++i) {
+  for (int i = 0; i < kMaxSteps; ++i) {
+    const double before = latitude;
     const double sine = std::sin(latitude), cosine = std::cos(latitude);
     const double nu = kSemiMajorAxis_m / std::sqrt(1.0 - kSquaredEccentricity * sine * sine);
     latitude = std::atan2(point_m.z + kSquaredEccentricity * nu * sine, from_axis_m);
     // Along the normal, which has no weak direction.
     height_m = from_axis_m * cosine + point_m.z * sine -
                kSemiMajorAxis_m * std::sqrt(1.0 - kSquaredEccentricity * sine * sine);
+    if (std::fabs(latitude - before) <= kRounding_rad) break;
   }
   return {ToDegrees(Radians(std::atan2(point_m.y, point_m.x))), ToDegrees(Radians(latitude)),
           height_m};

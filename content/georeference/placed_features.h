@@ -46,7 +46,7 @@ struct PlacedLayer {
   std::string name;
   std::string crs_name;
   TransformFacts facts;
-  LocalFrame frame{GeodeticPoint{}};  ///< That the features stand in.
+  LocalFrame frame{GeodeticPoint{}};    ///< That the features stand in.
   std::vector<PlacedFeature> features;  ///< Those with geometry.
   std::size_t empty_features = 0;       ///< Without geometry, or without vertices.
   std::size_t vertices = 0;

@@ -6,8 +6,11 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <random>
 #include <utility>
 #include <vector>
+
+#include <gtest/gtest.h>
 
 #include "content/draping/drape_lines.h"
 #include "content/draping/surface_index.h"
@@ -108,6 +111,25 @@ inline content::LineToDrape LineOf(std::vector<Vec3> points,
   line.feature = feature;
   for (const Vec3& point : points) line.points.push_back({point});
   return line;
+}
+
+inline content::SurfaceIndex IndexOf(SurfaceMesh mesh) {
+  auto index = content::SurfaceIndex::Create(std::move(mesh));
+  EXPECT_TRUE(index);
+  return *std::move(index);
+}
+
+/// A field of hills on a slope, metres.
+inline double Hills(double x, double y) {
+  return 3.0 * std::sin(0.21 * x) * std::cos(0.17 * y) + 0.08 * x - 0.05 * y;
+}
+
+inline content::LineToDrape RandomLine(std::mt19937* random, double half_m, int vertices) {
+  std::uniform_real_distribution<double> place(-half_m, half_m);
+  std::vector<Vec3> points;
+  points.reserve(static_cast<std::size_t>(vertices));
+  for (int i = 0; i < vertices; ++i) points.push_back({place(*random), place(*random), 0.0});
+  return LineOf(points);
 }
 
 }  // namespace pleinair::tests
