@@ -94,8 +94,9 @@ class SamplerTracer final : public LineTracer {
     const Vec3& v = line->velocity;
     const double cells_per_s =
         std::max({std::fabs(v.x) / cell.x, std::fabs(v.y) / cell.y, std::fabs(v.z) / cell.z});
-    const double max_s =
+    double max_s =
         cells_per_s > 0.0 ? kMaxStepCells / cells_per_s : std::numeric_limits<double>::infinity();
+    if (limits_.max_step_m > 0.0) max_s = std::min(max_s, limits_.max_step_m / Norm(v));
     const double controlled_s = std::min(line->step_s > 0.0 ? line->step_s : max_s, max_s);
     double size_s = std::min(controlled_s, sampler_.SecondsToSide(v * sign, acceleration_));
     bool is_cut = size_s < controlled_s;

@@ -22,6 +22,7 @@ struct LineLimits {
   double max_speed_m_s = 0.0;  ///< The field's; a millionth of it counts as standing.
   bool may_close = false;      ///< Streamlines.
   bool steady = true;          ///< Where nothing moves, nothing ever will.
+  double max_step_m = 0.0;     ///< 0: half a cell alone.
   double step_s = 0.0;         ///< Vertices at its multiples; 0: at the steps of the integration.
 };
 
