@@ -45,6 +45,7 @@ void AddDevicesCommand(CLI::App& app, CommandResult& result);
 void AddBenchCommand(CLI::App& app, CommandResult& result);
 void AddPlaceCommand(CLI::App& app, CommandResult& result);
 void AddTerrainCommand(CLI::App& app, CommandResult& result);
+void AddFlowCommand(CLI::App& app, CommandResult& result);
 void AddRecoverCommand(CLI::App& app, CommandResult& result);
 void AddDoctorCommand(CLI::App& app, CommandResult& result);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <queue>
@@ -41,6 +42,8 @@ class Placement {
 
   /// Follows a line from a seed unless others are near. Returns whether it is kept.
   bool TryLine(const Vec3& seed);
+  /// Called for each line.
+  void SetProgress(std::function<void()> progress) { progress_ = std::move(progress); }
   /// Tries the seeds beside the points of all lines, the oldest first.
   void TrySeedsBesideLines(const Vec3& normal);
 
@@ -64,6 +67,7 @@ class Placement {
   std::vector<LinePoints::Entry> own_;  // The line that is being followed.
   std::vector<Vec3> own_directions_;
   std::uint64_t reads_ = 0;
+  std::function<void()> progress_;
 };
 
 /// One way of a line. Where it meets its own start it may close: it goes on for one spacing, and
@@ -163,6 +167,7 @@ bool Placement::TryLine(const Vec3& seed) {
     points_.Add({end, own_.front().line, 0.0F});
     own_directions_.push_back({});
   }
+  if (progress_) progress_();
   directions_.insert(directions_.end(), own_directions_.begin(), own_directions_.end());
   return true;
 }
@@ -260,6 +265,7 @@ Result<std::vector<FlowLine>> PlaceLines(const VectorField& field, double spacin
                             MakeFrozenProbe(field, options.frozen_at_s));
   PLEINAIR_ASSIGN_OR_RETURN(LinePoints points, LinePoints::Create(field.bounds(), spacing_m));
   Placement placement(std::move(points), std::move(tracer), box, plane, spacing_m);
+  placement.SetProgress(options.progress);
   const auto first = FirstSeed(LevelGrid(field), box, probe.get(), options.frozen_at_s);
   if (!first) return std::vector<FlowLine>{};
   placement.TryLine(*first);
