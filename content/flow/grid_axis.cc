@@ -54,8 +54,7 @@ GridAxis GridAxis::Closed(double first_m, double step_m, int count) {
   return axis;
 }
 
-double GridAxis::Wrapped(double x_m) const {
-  if (!closed()) return x_m;
+double GridAxis::Turned(double x_m) const {
   return x_m - period_m_ * std::floor((x_m - first_m_) / period_m_);
 }
 

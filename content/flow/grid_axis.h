@@ -63,10 +63,13 @@ class GridAxis {
   }
 
   /// The coordinate on a closed axis; else unchanged.
-  double Wrapped(double x_m) const;
+  double Wrapped(double x_m) const {
+    return !closed() || (x_m >= first_m_ && x_m < last_m_) ? x_m : Turned(x_m);
+  }
 
  private:
   Place FindBetweenNodes(double x_m, int hint) const;
+  double Turned(double x_m) const;
 
   double origin_m_ = 0.0, step_m_ = 1.0, per_step_ = 1.0;
   int count_ = 1;

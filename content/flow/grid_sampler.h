@@ -24,6 +24,10 @@ class AxisLocator {
     for (std::size_t a = 0; a < kDimensions; ++a) {
       number_[a] = static_cast<std::size_t>(field.axes()[a]);
       axes_[a] = &field.grid().axes[number_[a]];
+      const GridAxis& axis = *axes_[a];
+      if (!axis.uniform() || axis.flat() || axis.closed()) continue;
+      plain_[a] = {axis.first_m(), axis.last_m(), 1.0 / axis.Step(0), axis.Step(0),
+                   axis.count() - 2};
     }
   }
 
@@ -31,14 +35,24 @@ class AxisLocator {
     const std::array<double, 3> x{point.x, point.y, point.z};
     bool inside = true, near = true;
     for (std::size_t a = 0; a < kDimensions; ++a) {
+      const std::size_t n = kDimensions == 3 ? a : number_[a];
+      const PlainAxis& plain = plain_[a];
+      // Inside a uniform axis, as most points are: without a look at the axis itself.
+      if (x[n] >= plain.first_m && x[n] <= plain.last_m) {
+        const double at = (x[n] - plain.first_m) * plain.per_step;
+        const int index = std::min(static_cast<int>(at), plain.last);
+        place->index[a] = index;
+        place->fraction[a] = at - index;
+        place->size_m[n] = plain.step_m;
+        continue;
+      }
       const GridAxis& axis = *axes_[a];
-      const double at = x[kDimensions == 3 ? a : number_[a]];
-      const GridAxis::Place found = axis.Find(at, place->index[a]);
+      const GridAxis::Place found = axis.Find(x[n], place->index[a]);
       place->index[a] = found.index;
       place->fraction[a] = found.fraction;
       if (axis.flat()) continue;
-      place->size_m[kDimensions == 3 ? a : number_[a]] = axis.Step(found.index);
-      inside = inside && axis.Contains(at);
+      place->size_m[n] = axis.Step(found.index);
+      inside = inside && axis.Contains(x[n]);
       near = near && found.fraction >= -1.0 && found.fraction <= 2.0;
     }
     return inside ? PointState::kFlow : (near ? PointState::kOutside : PointState::kNoFlow);
@@ -62,8 +76,15 @@ class AxisLocator {
   }
 
  private:
+  /// A uniform axis; empty for others.
+  struct PlainAxis {
+    double first_m = 1.0, last_m = 0.0, per_step = 0.0, step_m = 0.0;
+    int last = 0;
+  };
+
   std::array<const GridAxis*, kDimensions> axes_{};
   std::array<std::size_t, kDimensions> number_{};
+  std::array<PlainAxis, kDimensions> plain_{};
 };
 
 /// Points in curvilinear cells.
@@ -198,19 +219,27 @@ class GridSampler {
 
   Components LinearValue(const T* values) const {
     const T* const cell = values + CellOffset();
-    const auto along_x = [&](const T* at, std::size_t c) {
-      const auto a = static_cast<double>(at[c]);
-      return a + place_.fraction[0] * (static_cast<double>(at[strides_[0] + c]) - a);
-    };
-    const auto along_y = [&](const T* at, std::size_t c) {
-      const double a = along_x(at, c);
-      return a + place_.fraction[1] * (along_x(at + strides_[1], c) - a);
-    };
+    const double fx = place_.fraction[0], fy = place_.fraction[1];
+    const auto at = [](const T* node, std::size_t c) { return static_cast<double>(node[c]); };
+    const T *const x1 = cell + strides_[0], *const y1 = cell + strides_[1];
+    const T* const xy = y1 + strides_[0];
     Components result;
-    for (std::size_t c = 0; c < kDimensions; ++c) {
-      result[c] = along_y(cell, c);
-      if constexpr (kDimensions == 3) {
-        result[c] += place_.fraction[2] * (along_y(cell + strides_[2], c) - result[c]);
+    if constexpr (kDimensions == 2) {
+      for (std::size_t c = 0; c < 2; ++c) {
+        const double low = at(cell, c) + fx * (at(x1, c) - at(cell, c));
+        const double high = at(y1, c) + fx * (at(xy, c) - at(y1, c));
+        result[c] = low + fy * (high - low);
+      }
+    } else {
+      const double fz = place_.fraction[2];
+      const std::size_t up = strides_[2];
+      for (std::size_t c = 0; c < 3; ++c) {
+        const double x00 = at(cell, c) + fx * (at(x1, c) - at(cell, c));
+        const double x10 = at(y1, c) + fx * (at(xy, c) - at(y1, c));
+        const double x01 = at(cell + up, c) + fx * (at(x1 + up, c) - at(cell + up, c));
+        const double x11 = at(y1 + up, c) + fx * (at(xy + up, c) - at(y1 + up, c));
+        const double low = x00 + fy * (x10 - x00), high = x01 + fy * (x11 - x01);
+        result[c] = low + fz * (high - low);
       }
     }
     return result;

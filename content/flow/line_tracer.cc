@@ -19,6 +19,7 @@ constexpr double kLocalShare = 5e-4;
 /// Errors as a share of the step: near a sink, longer steps would leap around it for ever.
 constexpr double kRelativeError = 0.05;
 constexpr double kRounding = 1e-14;      // Of a cell.
+constexpr double kLargeGrowth = 1e-4;    // Errors below it allow steps five times as long.
 constexpr double kMinStepCells = 1e-7;   // Where a step counts as exact.
 constexpr double kWallCells = 1e-3;      // How near to a wall a line ends.
 constexpr double kStagnantSpeed = 1e-6;  // Of the field's largest.
@@ -129,7 +130,7 @@ class SamplerTracer final : public LineTracer {
           std::min(allowed, kRelativeError * moved_cells + kRounding);
       const bool fits = error <= 1.0 && moved_cells <= 1.2 * kMaxStepCells;
       if (fits || cells_per_s * size_s < kMinStepCells) {
-        const double growth = error > 0.0 ? 0.9 * std::pow(error, -0.2) : 5.0;
+        const double growth = error > kLargeGrowth ? 0.9 * std::pow(error, -0.2) : 5.0;
         // A step that was cut does not shrink the next one.
         const double next_s = size_s * std::clamp(growth, 0.2, 5.0);
         line->step_s = is_cut ? std::max(next_s, line->step_s) : next_s;
