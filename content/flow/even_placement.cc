@@ -18,10 +18,11 @@
 namespace pleinair::content {
 namespace {
 
-constexpr double kStopAt = 0.5;        // Of the spacing: where a line ends before another.
-constexpr double kPointEvery = 0.1;    // Of the spacing, along the lines in the hash.
-constexpr double kSeedSlack = 1e-6;    // A seed at the spacing, but for rounding, is at it.
-constexpr double kFirstWithin = 1e-3;  // Of the median of speeds.
+constexpr double kStopAt = 0.5;          // Of the spacing: where a line ends before another.
+constexpr double kPointEvery = 0.1;      // Of the spacing, along the lines in the hash.
+constexpr double kSelfTestEvery = 0.05;  // Of the spacing, along a line.
+constexpr double kSeedSlack = 1e-6;      // A seed at the spacing, but for rounding, is at it.
+constexpr double kFirstWithin = 1e-3;    // Of the median of speeds.
 
 bool IsInside(const Box& box, const Vec3& p) {
   const auto in = [](double x, double low, double high) { return x >= low && x <= high; };
@@ -77,7 +78,8 @@ LineEnd Placement::Follow(const Vec3& seed, double sign, LineVertices* vertices,
   LineState state;
   *length_m = 0.0;
   if (!tracer_->Begin({seed, 0.0}, &state, vertices)) return LineEnd::kWall;
-  double last_m = 0.0, met_m = std::numeric_limits<double>::infinity();
+  double last_m = 0.0, tested_m = 0.0, safe_until_m = 0.0,
+         met_m = std::numeric_limits<double>::infinity();
   std::size_t met_count = 0;
   bool beyond = false;
   const auto number = static_cast<std::uint32_t>(lines_.size());
@@ -87,10 +89,20 @@ LineEnd Placement::Follow(const Vec3& seed, double sign, LineVertices* vertices,
       return true;
     }
     if (arc_m > met_m + spacing_m_) return true;
-    const bool meets_other = points_.AnyNear(point, kStopAt * spacing_m_,
-                                             [](const LinePoints::Entry&, double) { return true; });
-    if (meets_other) return true;
-    for (std::size_t i = 0; i < own_.size() && met_count == 0; ++i) {
+    // A line that is r from the nearest other one meets none within r minus half the spacing.
+    if (arc_m >= safe_until_m) {
+      double square_m2 = spacing_m_ * spacing_m_;
+      points_.AnyNear(point, spacing_m_, [&](const LinePoints::Entry&, double square) {
+        square_m2 = std::min(square_m2, square);
+        return false;
+      });
+      const double margin_m = std::sqrt(square_m2) - kStopAt * spacing_m_;
+      if (margin_m < 0.0) return true;
+      safe_until_m = arc_m + margin_m;
+    }
+    const bool tests_itself = arc_m - tested_m >= kSelfTestEvery * spacing_m_;
+    if (tests_itself) tested_m = arc_m;
+    for (std::size_t i = 0; tests_itself && i < own_.size() && met_count == 0; ++i) {
       const LinePoints::Entry& entry = own_[i];
       const Vec3 off = entry.point - point;
       if (Dot(off, off) >= kStopAt * kStopAt * spacing_m_ * spacing_m_) continue;
