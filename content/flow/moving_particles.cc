@@ -42,12 +42,17 @@ Result<void> MoveParticles(const VectorField& field, double sign, int threads,
                            std::vector<MovingParticle>* particles) {
   if (particles->empty()) return {};
   std::vector<Stage> stages(particles->size(), Stage::kWaiting);
+  for (std::size_t i = 0; i < stages.size(); ++i) {
+    const MovingParticle& particle = (*particles)[i];
+    if (particle.begun) stages[i] = Stage::kMoving;
+    if (particle.end != LineEnd::kDuration) stages[i] = Stage::kDone;
+  }
   const auto* grid = dynamic_cast<const GridField*>(&field);
   Seconds from_s = sign * kInfinity;
   Seconds last_s = -sign * kInfinity;
   for (const MovingParticle& particle : *particles) {
-    from_s =
-        sign > 0.0 ? std::min(from_s, particle.seed.time) : std::max(from_s, particle.seed.time);
+    const Seconds at_s = particle.begun ? particle.line.time : particle.seed.time;
+    from_s = sign > 0.0 ? std::min(from_s, at_s) : std::max(from_s, at_s);
     last_s = sign > 0.0 ? std::max(last_s, particle.stop_s) : std::min(last_s, particle.stop_s);
   }
   for (bool more = true; more;) {

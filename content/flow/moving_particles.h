@@ -10,7 +10,7 @@
 
 namespace pleinair::content {
 
-/// A particle from its seed at its time until `stop_s`.
+/// A particle from its seed at its time until `stop_s`, or on from there.
 struct MovingParticle {
   Seed seed;
   Seconds stop_s = 0.0;

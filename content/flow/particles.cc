@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "content/flow/grid_field.h"
@@ -12,6 +13,7 @@ namespace {
 
 constexpr std::size_t kMaxParticles = 1'000'000;
 constexpr int kMaxTrailPoints = 1024;
+constexpr double kMaxTrails = 1e4;                 // Of a life.
 constexpr double kParticleTolerance_cells = 0.01;  // A tenth of a pixel and less.
 
 // Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences": the roots of
@@ -45,63 +47,93 @@ Vec3 Birthplace(const Box& box, std::uint64_t number) {
           box.min.z + size.z * (c > 0.0 ? third : (size.y > 0.0 ? first : second))};
 }
 
-Result<std::vector<ParticleTrail>> ParticlesAt(const VectorField& field, Seconds time,
-                                               const ParticleOptions& options) {
-  if (options.count > kMaxParticles || !(options.life_s > 0.0) || !(options.trail_s >= 0.0) ||
-      options.trail_points < 2 || options.trail_points > kMaxTrailPoints) {
-    return InputError("", "the options of particles are out of range",
-                      "give at most 1,000,000 particles, a positive life and 2 to 1024 points");
-  }
-  Box box = field.bounds();
+Particles::Particles(const VectorField& field, const ParticleOptions& options)
+    : field_(&field),
+      options_(options),
+      births_(field.bounds()),
+      interval_s_(options.trail_s / (options.trail_points - 1)),
+      moving_(options.count),
+      generations_(options.count, std::numeric_limits<std::int64_t>::min()),
+      paths_(options.count) {
   const auto* grid = dynamic_cast<const GridField*>(&field);
   if (grid != nullptr && grid->axes().size() == 2 && !grid->grid().cells.empty()) {
-    box.max.z = box.min.z;
+    births_.max.z = births_.min.z;
   }
-  std::vector<MovingParticle> moving(options.count);
-  std::vector<Seconds> ages(options.count);
-  for (std::size_t p = 0; p < options.count; ++p) {
-    // Births are spread over the life, so that as many die as are born at any time.
-    const double phase = Fraction(static_cast<double>(p) * kGolden);
-    const double lives = time / options.life_s + phase;
-    const auto generation = static_cast<std::int64_t>(std::floor(lives));
-    ages[p] = (lives - static_cast<double>(generation)) * options.life_s;
-    const std::uint64_t number =
-        static_cast<std::uint64_t>(generation) * options.count + static_cast<std::uint64_t>(p);
-    moving[p].seed = {Birthplace(box, number), time - ages[p]};
-    moving[p].stop_s = time;
-    moving[p].keeps_vertices = true;
+}
+
+Result<Particles> Particles::Create(const VectorField& field, const ParticleOptions& options) {
+  if (options.count > kMaxParticles || !(options.life_s > 0.0) || !(options.trail_s > 0.0) ||
+      options.trail_points < 2 || options.trail_points > kMaxTrailPoints ||
+      options.life_s / options.trail_s > kMaxTrails) {
+    return InputError("", "the options of particles are out of range",
+                      "give at most 1,000,000 particles, positive times and 2 to 1024 points");
   }
-  const double interval_s = options.trail_s / (options.trail_points - 1);
-  PLEINAIR_RETURN_IF_ERROR(MoveParticles(
-      field, 1.0, options.threads,
-      [](const FieldWindow&) {
-        LineLimits limits;
-        limits.tolerance_cells = kParticleTolerance_cells;
-        limits.length_m = 1e30;
-        limits.max_speed_m_s = 0.0;
-        limits.steady = false;
-        return limits;
-      },
-      &moving));
-  std::vector<ParticleTrail> trails(options.count);
-  for (std::size_t p = 0; p < options.count; ++p) {
-    const LineVertices& path = moving[p].vertices;
-    if (!moving[p].begun || moving[p].end != LineEnd::kDuration) continue;
-    ParticleTrail& trail = trails[p];
-    trail.age_s = ages[p];
-    trail.speed_m_s = moving[p].speed_m_s;
-    // Points at equal times back from now, between the steps of the path.
-    std::size_t n = path.points.size() - 1;
-    for (int i = 0; i < options.trail_points; ++i) {
-      const Seconds at = std::max(time - i * interval_s, path.times_s.front());
-      while (n > 0 && path.times_s[n - 1] > at) --n;
-      const std::size_t before = n > 0 ? n - 1 : 0;
-      const double span = path.times_s[n] - path.times_s[before];
-      const double share =
-          span > 0.0 ? std::clamp((at - path.times_s[before]) / span, 0.0, 1.0) : 1.0;
-      trail.points.push_back(path.points[before] + (path.points[n] - path.points[before]) * share);
-      if (at <= path.times_s.front() || interval_s == 0.0) break;
+  return Particles(field, options);
+}
+
+/// The state of a particle at its last birth, unless it lives since then and is not yet older.
+void Particles::Bear(std::size_t number, Seconds time) {
+  // Births are spread over the life, so that as many die as are born at any time.
+  const double phase = Fraction(static_cast<double>(number) * kGolden);
+  const auto generation = static_cast<std::int64_t>(std::floor(time / options_.life_s + phase));
+  MovingParticle& particle = moving_[number];
+  if (generation == generations_[number] && particle.stop_s <= time) return;
+  generations_[number] = generation;
+  const std::uint64_t birth =
+      static_cast<std::uint64_t>(generation) * options_.count + static_cast<std::uint64_t>(number);
+  const Seconds born_s = (static_cast<double>(generation) - phase) * options_.life_s;
+  particle = {};
+  particle.seed = {Birthplace(births_, birth), born_s};
+  particle.stop_s = born_s;
+  paths_[number] = {particle.seed.point};
+}
+
+Result<std::vector<ParticleTrail>> Particles::At(Seconds time) {
+  for (std::size_t p = 0; p < moving_.size(); ++p) Bear(p, time);
+  const auto limits = [](const FieldWindow&) {
+    LineLimits all;
+    all.tolerance_cells = kParticleTolerance_cells;
+    all.length_m = std::numeric_limits<double>::max();
+    all.steady = false;
+    return all;
+  };
+  // One interval a round, for all that are not there yet.
+  for (;;) {
+    std::vector<std::size_t> numbers;
+    std::vector<MovingParticle> round;
+    for (std::size_t p = 0; p < moving_.size(); ++p) {
+      const Seconds next_s =
+          moving_[p].seed.time + static_cast<double>(paths_[p].size()) * interval_s_;
+      if (next_s > time || moving_[p].end != LineEnd::kDuration) continue;
+      numbers.push_back(p);
+      round.push_back(moving_[p]);
+      round.back().stop_s = next_s;
     }
+    if (numbers.empty()) break;
+    PLEINAIR_RETURN_IF_ERROR(MoveParticles(*field_, 1.0, options_.threads, limits, &round));
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      // Without flow at its birth it has left.
+      if (!round[i].begun) round[i].end = LineEnd::kWall;
+      moving_[numbers[i]] = round[i];
+      paths_[numbers[i]].push_back(round[i].line.point);
+    }
+  }
+  std::vector<MovingParticle> heads = moving_;
+  for (MovingParticle& head : heads) head.stop_s = time;
+  PLEINAIR_RETURN_IF_ERROR(MoveParticles(*field_, 1.0, options_.threads, limits, &heads));
+  std::vector<ParticleTrail> trails(moving_.size());
+  for (std::size_t p = 0; p < moving_.size(); ++p) {
+    const bool lives = moving_[p].end == LineEnd::kDuration && heads[p].end == LineEnd::kDuration &&
+                       heads[p].begun;
+    if (!lives) continue;
+    ParticleTrail& trail = trails[p];
+    trail.age_s = time - moving_[p].seed.time;
+    trail.speed_m_s = heads[p].speed_m_s;
+    trail.points.push_back(heads[p].line.point);
+    const auto most = static_cast<std::size_t>(options_.trail_points) - 1;
+    const std::size_t count = std::min(paths_[p].size(), most);
+    trail.points.insert(trail.points.end(), paths_[p].rbegin(),
+                        paths_[p].rbegin() + static_cast<std::ptrdiff_t>(count));
   }
   return trails;
 }

@@ -18,10 +18,12 @@ namespace {
 TEST(Particles, AreTheSameForTheSameTimeWhateverWasShown) {
   const auto field = MakeSteady(Square(33, 1.0), SolidRotation);
   const ParticleOptions options{.count = 300, .life_s = 2.0, .trail_s = 0.3};
-  const auto once = ParticlesAt(*field, 7.25, options);
-  for (const Seconds time : {3.0, 7.2, 100.0}) EXPECT_TRUE(ParticlesAt(*field, time, options));
-  const auto again =
-      ParticlesAt(*field, 7.25, {.count = 300, .life_s = 2.0, .trail_s = 0.3, .threads = 1});
+  auto first = Particles::Create(*field, options);
+  const auto once = first->At(7.25);
+  auto other =
+      Particles::Create(*field, {.count = 300, .life_s = 2.0, .trail_s = 0.3, .threads = 1});
+  for (const Seconds time : {3.0, 7.2, 7.21, 100.0, 6.9}) EXPECT_TRUE(other->At(time));
+  const auto again = other->At(7.25);
   ASSERT_EQ(once->size(), again->size());
   for (std::size_t i = 0; i < once->size(); ++i) {
     EXPECT_EQ((*once)[i].points, (*again)[i].points);
@@ -30,7 +32,8 @@ TEST(Particles, AreTheSameForTheSameTimeWhateverWasShown) {
 
 TEST(Particles, MoveWithTheFlowAndTrailBehind) {
   const auto field = MakeSteady(Square(33, 1.0), SolidRotation);
-  const auto trails = ParticlesAt(*field, 5.0, {.count = 200, .life_s = 3.0, .trail_s = 0.5});
+  auto particles = Particles::Create(*field, {.count = 200, .life_s = 3.0, .trail_s = 0.5});
+  const auto trails = particles->At(5.0);
   int full = 0;
   for (const ParticleTrail& trail : *trails) {
     if (trail.age_s < 0.5 || trail.points.empty()) continue;
@@ -38,12 +41,34 @@ TEST(Particles, MoveWithTheFlowAndTrailBehind) {
     EXPECT_EQ(trail.points.size(), 16U);
     const double radius = Norm(trail.points.front());
     EXPECT_NEAR(trail.speed_m_s, radius, 1e-3);
-    // Half a second at one radian per second.
+    // One radian per second; the trail ends at the last of 15 fixed times, at most 0.5 s ago.
     const Vec3 &head = trail.points.front(), &tail = trail.points.back();
     const double angle = std::atan2(tail.x * head.y - tail.y * head.x, Dot(head, tail));
-    EXPECT_NEAR(angle, 0.5, 0.01);
+    EXPECT_LE(angle, 0.5 + 1e-3);
+    EXPECT_GE(angle, 0.5 - 0.5 / 15.0 - 1e-3);
   }
   EXPECT_GT(full, 80);
+}
+
+TEST(Particles, FollowTheTimesOfTheField) {
+  // A wind that grows: 0.02 t to the right.
+  const auto field = MakeField(
+      Square(33, 10.0), {0.0, 1.0, 5.0, 20.0},
+      [](const Vec3&, Seconds t) {
+        return Vec3{0.02 * t, 0, 0};
+      },
+      Interpolation::kLinear);
+  auto particles = Particles::Create(*field, {.count = 100, .life_s = 6.0, .trail_s = 0.5});
+  for (const Seconds time : {8.0, 8.033, 8.066}) {
+    const auto trails = particles->At(time);
+    int alive = 0;
+    for (const ParticleTrail& trail : *trails) {
+      if (trail.points.empty()) continue;
+      ++alive;
+      EXPECT_NEAR(trail.speed_m_s, 0.02 * time, 1e-9);
+    }
+    EXPECT_GT(alive, 90);
+  }
 }
 
 TEST(Particles, AreBornEvenly) {
