@@ -34,6 +34,7 @@ constexpr const char* kExamples =
     "  pleinair path convert out/demo/poses/sg_17.tum path.glb --calibration camera.json\n"
     "  pleinair place parcels.gpkg --at 50.0875,14.4213,220 --plan plan.svg\n"
     "  pleinair terrain dem.tif --scene scene.toml -o terrain.obj\n"
+    "  pleinair flow wind.nc --spacing 500 -o lines.geojson\n"
     "  pleinair sun --at 50.0875,14.4213 --time 2025-09-14T11:05:00Z\n"
     "  pleinair sky --at 50.0875,14.4213 --time 2025-09-14T17:00:00Z -o dome.png\n"
     "  pleinair live --camera file:recordings/courtyard_midday --headless\n"
@@ -112,6 +113,7 @@ int RunCommandLine(int argc, const char* const* argv) {
     AddPlaceCommand(app, result);
     AddTerrainCommand(app, result);
     AddDrapeCommand(app, result);
+    AddFlowCommand(app, result);
     AddSunCommand(app, result);
     AddSkyCommand(app, result);
     AddAccuracyCommand(app, result);

@@ -46,6 +46,7 @@ void AddBenchCommand(CLI::App& app, CommandResult& result);
 void AddPlaceCommand(CLI::App& app, CommandResult& result);
 void AddTerrainCommand(CLI::App& app, CommandResult& result);
 void AddDrapeCommand(CLI::App& app, CommandResult& result);
+void AddFlowCommand(CLI::App& app, CommandResult& result);
 void AddRecoverCommand(CLI::App& app, CommandResult& result);
 void AddDoctorCommand(CLI::App& app, CommandResult& result);
 
