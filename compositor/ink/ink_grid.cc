@@ -37,6 +37,11 @@ CellRange RangeOf(const InkGrid::Level& level, glm::vec2 origin_m, glm::vec2 low
   return {cell_of(low_m), cell_of(high_m)};
 }
 
+std::size_t IndexOf(glm::ivec2 cells, int x, int y) {
+  return static_cast<std::size_t>(y) * static_cast<std::size_t>(cells.x) +
+         static_cast<std::size_t>(x);
+}
+
 /// Distance of a segment to a point, squared.
 float DistanceSquared(glm::vec2 from, glm::vec2 to, glm::vec2 at) {
   const glm::vec2 whole = to - from;
@@ -136,8 +141,8 @@ void InkGrid::FindCrowdedChildren(const Level& level) {
     const glm::ivec2 cells = levels_.back().cells;
     for (int y = 0; y < cells.y; ++y) {
       for (int x = 0; x < cells.x; ++x) {
-        if (crowded_[static_cast<std::size_t>(y * cells.x + x)]) {
-          crowded[static_cast<std::size_t>(y / 2 * level.cells.x + x / 2)] = true;
+        if (crowded_[IndexOf(cells, x, y)]) {
+          crowded[IndexOf(level.cells, x / 2, y / 2)] = true;
         }
       }
     }
@@ -171,7 +176,7 @@ void InkGrid::AddLine(const InkShape& shape, std::uint32_t number, const Level& 
         RangeOf(level, low_m_, glm::min(from, to) - margin_m, glm::max(from, to) + margin_m);
     for (int y = range.first.y; y <= range.last.y; ++y) {
       for (int x = range.first.x; x <= range.last.x; ++x) {
-        if (crowded_[static_cast<std::size_t>(y * level.cells.x + x)]) continue;
+        if (crowded_[IndexOf(level.cells, x, y)]) continue;
         const glm::vec2 center = low_m_ + level.cell_m * (glm::vec2(x, y) + 0.5F);
         if (DistanceSquared(from, to, center) > reach_m * reach_m) continue;
         in_cells.push_back(static_cast<std::uint64_t>(y * level.cells.x + x) << 32 | i);
@@ -322,8 +327,8 @@ float InkGrid::MeanOfArea(const Entry& entry, glm::vec2 low_m, float cell_m) con
   const glm::vec2 center = low_m + 0.5F * cell_m;
   float covered = 0.0F;
   for (int i = 0; i < kPlacesOfMean * kPlacesOfMean; ++i) {
-    const glm::vec2 place(static_cast<float>(i % kPlacesOfMean) + 0.5F,
-                          static_cast<float>(i / kPlacesOfMean) + 0.5F);
+    const int column = i % kPlacesOfMean, row = i / kPlacesOfMean;
+    const glm::vec2 place = glm::vec2(column, row) + 0.5F;
     float winding = entry.inside;
     for (std::uint32_t p = entry.first_part; p < entry.first_part + entry.count; ++p) {
       const InkPart& edge = segments_[parts_[p]];

@@ -260,8 +260,9 @@ double ShareOnLine(const Transform<Camera, Marker>& camera_from_marker, int x, i
   const Vec3 eye = marker_from_camera.translation_m;
   int on_line = 0;
   for (int i = 0; i < 64; ++i) {
-    const Vec3 ray{(x - kCamera.cx + (i % 8 + 0.5) / 8 - 0.5) / kCamera.fx,
-                   (y - kCamera.cy + (i / 8 + 0.5) / 8 - 0.5) / kCamera.fy, 1.0};
+    const int column = i % 8, row = i / 8;
+    const Vec3 ray{(x - kCamera.cx + (column + 0.5) / 8 - 0.5) / kCamera.fx,
+                   (y - kCamera.cy + (row + 0.5) / 8 - 0.5) / kCamera.fy, 1.0};
     const Vec3 way = marker_from_camera.rotation * ray;
     if (way.z >= 0.0) continue;
     const Vec3 at = eye + way * (-eye.z / way.z);

@@ -32,8 +32,9 @@ struct Footprint {
     constexpr int kSide = 64;
     double sum = 0.0;
     for (int i = 0; i < kSide * kSide; ++i) {
-      const float u = (static_cast<float>(i % kSide) + 0.5F) / kSide - 0.5F;
-      const float v = (static_cast<float>(i / kSide) + 0.5F) / kSide - 0.5F;
+      const int column = i % kSide, row = i / kSide;
+      const float u = (static_cast<float>(column) + 0.5F) / kSide - 0.5F;
+      const float v = (static_cast<float>(row) + 0.5F) / kSide - 0.5F;
       sum += inside(center + u * x + v * y) ? 1.0 : 0.0;
     }
     return sum / (kSide * kSide);
