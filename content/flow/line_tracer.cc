@@ -338,8 +338,8 @@ double MaxSpeed(const VectorField& field, const FieldWindow& window) {
   const Box box = field.bounds();
   const Vec3 size = box.max - box.min;
   for (int n = 0; n < kLattice * kLattice * kLattice; ++n) {
-    const Vec3 share{n % kLattice / (kLattice - 1.0), n / kLattice % kLattice / (kLattice - 1.0),
-                     n / kLattice / kLattice / (kLattice - 1.0)};
+    const int column = n % kLattice, row = n / kLattice % kLattice, layer = n / kLattice / kLattice;
+    const Vec3 share = Vec3{1.0 * column, 1.0 * row, 1.0 * layer} * (1.0 / (kLattice - 1.0));
     const Vec3 v = field.At(box.min + Vec3{size.x * share.x, size.y * share.y, size.z * share.z},
                             window.first_s);
     if (Norm(v) > best) best = Norm(v);
