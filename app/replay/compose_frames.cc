@@ -39,7 +39,7 @@ Result<std::unique_ptr<exports::VideoWriter>> OpenVideo(
   if (sound) {
     constexpr double kSecond_ns = 1e9;
     options.sound = exports::CopiedSound{
-        sound->film, sound->start_s + static_cast<double>(state.first_stamp_ns) / kSecond_ns};
+        sound->film, sound->start_s + static_cast<double>(state.read.first_stamp_ns) / kSecond_ns};
   }
   PLEINAIR_ASSIGN_OR_RETURN(
       auto video, exports::VideoWriter::Create(state.folder.staging() / "composite.mp4", options));

@@ -24,12 +24,12 @@ Result<void> FindMarkers(ReplayState& state, devices::Recording recording) {
                         const session::TrackedFrame& tracked) -> Result<void> {
     state.frame_warnings.Add(frame.index, tracked.warnings);
     if (is_first) {
-      state.first_stamp_ns = frame.timestamp_ns;
+      state.read.first_stamp_ns = frame.timestamp_ns;
       state.report.film.first_frame = frame.index;
       state.report.film.clock_start_ns = ClockStartOf(frame);
     }
     is_first = false;
-    state.lost_frames += frame.lost_before;
+    state.read.lost_frames += frame.lost_before;
     std::string line =
         DetectionsWriter::Line(frame.index, frame.timestamp_ns, tracked.observations, tracked.lost);
     PLEINAIR_RETURN_IF_ERROR(detections.Add(line));

@@ -164,9 +164,9 @@ void Warn(ReplayState& state) {
   };
   add(MarkerWarnings(state.report, state.pipeline->tracks(), state.scene()));
   add(state.frame_warnings.Sentences());
-  if (state.lost_frames > 0) {
+  if (state.read.lost_frames > 0) {
     warnings.push_back(
-        fmt::format("{} frames were lost when this was recorded.", state.lost_frames));
+        fmt::format("{} frames were lost when this was recorded.", state.read.lost_frames));
   }
   add(ModelWarnings(state.renderer().placed()));
   add(PlacementWarnings(state.renderer().placed(), state.scene(),

@@ -32,8 +32,11 @@ struct ReplayState {
   std::shared_ptr<SceneInk> ink{};                  ///< Null: the scene has no maps.
   FrameWarnings frame_warnings{};                   ///< From the tracker.
   std::vector<exports::MarkersMessage> messages{};  ///< Lines of detections.jsonl, for MCAP.
-  std::int64_t first_stamp_ns = 0;                  ///< Time of the first frame in the range.
-  std::int64_t lost_frames = 0;                     ///< Dropped by the recorder.
+  /// Of the frames in the range.
+  struct {
+    std::int64_t first_stamp_ns = 0;
+    std::int64_t lost_frames = 0;  ///< Dropped by the recorder.
+  } read{};
   TimeLapseMoments day_moments{};
   StageTimes times{};
   ReplayReport report{};
