@@ -8,6 +8,8 @@ namespace pleinair::compositor {
 namespace {
 
 constexpr float kLeastFace_m = 0.01F;
+// The band of a line that meets a face at 22° or more ends within so many half widths.
+constexpr float kReach = 2.5F;
 
 /// What parts at both ends of a segment may differ in height, and the shares that have it.
 struct NearFaces {
@@ -25,11 +27,11 @@ bool IsFace(const InkSegment& segment) {
   return climb_m > kLeastFace_m && PlanLength(segment) <= 1e-3F * climb_m;
 }
 
-/// Marks the way from a face forward or backward, up to half a width.
+/// Marks the way from a face forward or backward.
 void Mark(const std::vector<InkSegment>& segments, std::size_t face, float half_width_m,
           bool forward, std::vector<NearFaces>* near) {
   const float climb_m = std::fabs(segments[face].to_m.z - segments[face].from_m.z);
-  float left_m = half_width_m;
+  float left_m = kReach * half_width_m;
   for (std::size_t i = face; left_m > 0.0F;) {
     if (forward ? i + 1 == segments.size() : i == 0) return;
     i = forward ? i + 1 : i - 1;

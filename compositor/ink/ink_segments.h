@@ -14,7 +14,7 @@ struct InkPart {
 };
 
 /// The segments of a line. Where it climbs a vertical face, its band on one side reaches beside
-/// segments on the other. Parts within half a width of a face therefore count on surfaces within
+/// segments on the other. Parts near a face therefore count on surfaces within
 /// the height of the face. `half_width_m`: of the band.
 std::vector<InkPart> PartsOfLine(const std::vector<InkSegment>& segments, float half_width_m);
 

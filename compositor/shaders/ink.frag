@@ -125,7 +125,8 @@ InkFootprint FootprintOf(VisibleSurface surface, float spread) {
   seen.step_x = step_x.xy;
   seen.step_y = step_y.xy;
   seen.height = abs(step_x.z) + abs(step_y.z);
-  seen.slope = abs(normal.z) > kLeastUp ? -normal.xy / normal.z : vec2(0.0);
+  seen.is_face = abs(normal.z) < kLeastUp;
+  seen.slope = seen.is_face ? vec2(0.0) : -normal.xy / normal.z;
   return seen;
 }
 

@@ -11,7 +11,8 @@ struct InkFootprint {
   vec3 place;           // The pixel's center on the surface, map coordinates.
   vec2 step_x, step_y;  // Its sides.
   float height;         // By how much the surface rises along both.
-  vec2 slope;           // Of the surface, metres up per metre; 0 for steep ones.
+  vec2 slope;           // Of the surface, metres up per metre; 0 for faces.
+  bool is_face;         // A steep surface: lines lie on it where they climb it.
 };
 
 // A line as its segments are drawn.
@@ -23,7 +24,8 @@ struct InkBand {
 // `z` or differs from it by `differs` at most. The surface is followed along its slope.
 bool IsSameSurface(InkFootprint seen, vec2 away, float z, float differs) {
   float there = seen.place.z - dot(seen.slope, away);
-  return abs(there - z) <= 0.03f + 0.3f * length(away) + seen.height + differs;
+  float leeway = seen.is_face ? 0.0f : 0.03f + 0.3f * length(away);
+  return abs(there - z) <= leeway + seen.height + differs;
 }
 
 // Width of the footprint along a unit vector.

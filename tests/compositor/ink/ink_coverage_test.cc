@@ -25,7 +25,9 @@ namespace {
 struct Footprint {
   glm::vec2 center, x, y;
 
-  glsl::InkFootprint Seen() const { return {glm::vec3(center, 0.0F), x, y, 0.0F, {0.0F, 0.0F}}; }
+  glsl::InkFootprint Seen() const {
+    return {glm::vec3(center, 0.0F), x, y, 0.0F, {0.0F, 0.0F}, false};
+  }
 
   template <typename Inside>
   double Mean(const Inside& inside) const {
@@ -186,9 +188,13 @@ TEST_F(InkCoverage, OfAnAreaAlsoIfItIsThin) {
 
 TEST_F(InkCoverage, IsNotOnASurfaceAboveTheLine) {
   const auto covered = [](float height_m) {
-    return glsl::CoverageOfSegment(
-               {glm::vec3(0.0F, 0.01F, height_m), {0.01F, 0.0F}, {0.0F, 0.01F}, 0.0F, {0.0F, 0.0F}},
-               {-1, 0, 0, 0}, {1, 0, 0, 0}, {0.1F, 0.0F, 0.0F})
+    return glsl::CoverageOfSegment({glm::vec3(0.0F, 0.01F, height_m),
+                                    {0.01F, 0.0F},
+                                    {0.0F, 0.01F},
+                                    0.0F,
+                                    {0.0F, 0.0F},
+                                    false},
+                                   {-1, 0, 0, 0}, {1, 0, 0, 0}, {0.1F, 0.0F, 0.0F})
         .round_capped;
   };
   EXPECT_EQ(covered(0.0F), 1.0F);
@@ -202,7 +208,7 @@ TEST_F(InkCoverage, OfALineUpAWallIsABandOfItsWidth) {
     const auto line = glsl::WithSegment(
         glsl::NoCoverage(),
         glsl::CoverageOfSegment(
-            {glm::vec3(x, 0.0F, z), {0.005F, 0.0F}, {0.0F, 0.0F}, 0.005F, {0.0F, 0.0F}},
+            {glm::vec3(x, 0.0F, z), {0.005F, 0.0F}, {0.0F, 0.0F}, 0.005F, {0.0F, 0.0F}, true},
             {0, 0, 0, 0}, {0, 0, 2, 0}, {half_width, 0.0F, 0.0F}));
     return glsl::CoverageOfLine(line, half_width, 0.0025F);
   };
