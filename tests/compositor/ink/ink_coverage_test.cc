@@ -232,7 +232,8 @@ TEST_F(InkCoverage, OfADiscIsItsArea) {
                  {0.1F, 0.0F},
                  {0.0F, 0.1F},
                  0.0F,
-                 {0.0F, 0.0F}},
+                 {0.0F, 0.0F},
+                 false},
                 {0.013F, 0.021F, 0, 0}, {0.013F, 0.021F, 0, 0}, {radius, 0.0F, 0.0F}));
         sum += glsl::CoverageOfLine(line, radius, 0.1F);
       }
