@@ -101,8 +101,10 @@ LineCoverage CoverageOfPoint(InkFootprint seen, vec4 from, vec4 to, InkBand band
   float climbed = clamp(abs(place.z - from.z), 0.0f, high - low);
   float dashes = DashCoverage(from.w + climbed, height, band.dash, band.gap);
   float overlap = (clamp(place.z + 0.5f * height, low, high) - clamp(place.z - 0.5f * height, low, high)) / height;
-  bool same = climbs ? max(low - place.z, place.z - high) <= seen.height
-                     : IsSameSurface(seen, away, from.z, 0.0f);
+  // A line climbs its own face alone: other faces, and level ground, are not along it.
+  float aside = length(away - dot(away, along_face) * along_face);
+  bool on_face = seen.is_face && aside <= 0.03f && max(low - place.z, place.z - high) <= seen.height;
+  bool same = climbs ? on_face : IsSameSurface(seen, away, from.z, 0.0f);
   float across = BandCoverage(distance, band.half_width, FootprintAlong(direction, step_x, step_y));
   float footprint = max(abs(step_x.x * step_y.y - step_x.y * step_y.x), 1e-12f);
   float disc = min(3.14159265f * band.half_width * band.half_width / footprint, 1.0f) *

@@ -220,6 +220,15 @@ TEST_F(InkCoverage, OfALineUpAWallIsABandOfItsWidth) {
   EXPECT_NEAR(covered(0.0F, 1.0F, 0.0005F), 0.2F, 1e-3F) << "thinner than a pixel";
 }
 
+TEST_F(InkCoverage, OfALineUpAWallIsNotOnTheGroundBeforeIt) {
+  for (const float y : {0.0F, -0.05F, -1.0F}) {
+    const auto line = glsl::CoverageOfSegment(
+        {glm::vec3(0.0F, y, 0.0F), {0.005F, 0.0F}, {0.0F, 0.005F}, 0.0F, {0.0F, 0.0F}, false},
+        {0, 0, 0, 0}, {0, 0, 2, 0}, {0.1F, 0.0F, 0.0F});
+    EXPECT_EQ(line.round_capped + line.flat_capped, 0.0F) << y;
+  }
+}
+
 TEST_F(InkCoverage, OfADiscIsItsArea) {
   for (const float radius : {0.01F, 0.03F, 0.4F}) {
     double sum = 0.0;
