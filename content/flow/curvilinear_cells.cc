@@ -57,7 +57,8 @@ struct CurvilinearCells::Parts {
 
   int BinOf(double x, double low, double high, int count) const {
     if (!(high > low)) return 0;
-    return std::clamp(static_cast<int>((x - low) / (high - low) * count), 0, count - 1);
+    const double bin = std::clamp((x - low) / (high - low) * count, 0.0, count - 1.0);
+    return bin > 0.0 ? static_cast<int>(bin) : 0;  // 0 if it is not a number.
   }
   std::array<int, 3> BinAt(const Vec3& p) const {
     return {BinOf(p.x, bounds.min.x, bounds.max.x, bins[0]),
@@ -219,8 +220,9 @@ bool CurvilinearCells::Find(const Vec3& point, GridPlace* place) const {
     const std::array<int, 3> from = place->index;
     for (std::size_t a = 0; a < 3; ++a) {
       const double f = place->fraction[a];
-      const int by = f > 1.0 + kBorder ? std::max(1, static_cast<int>(std::floor(f)))
-                     : f < -kBorder    ? static_cast<int>(std::floor(f))
+      const double cells = std::clamp(std::floor(f), -1.0 * parts.cells[a], 1.0 * parts.cells[a]);
+      const int by = f > 1.0 + kBorder ? std::max(1, static_cast<int>(cells))
+                     : f < -kBorder    ? static_cast<int>(cells)
                                        : 0;
       place->index[a] = std::clamp(place->index[a] + by, 0, parts.cells[a] - 1);
       moved = moved || place->index[a] != from[a];

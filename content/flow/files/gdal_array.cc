@@ -20,6 +20,13 @@ using Attribute = std::unique_ptr<GDALAttributeHS, AttributeDeleter>;
 
 }  // namespace
 
+StatedCrs GdalArray::Crs() const {
+  // A copy of the array's, which it gives away.
+  const std::unique_ptr<void, decltype(&OSRRelease)> copy(GDALMDArrayGetSpatialRef(array_.get()),
+                                                          &OSRRelease);
+  return ReadStatedCrs(copy.get());
+}
+
 std::string GdalArray::Text(const char* attribute) const {
   const Attribute found(GDALMDArrayGetAttribute(array_.get(), attribute));
   if (!found) return {};

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "content/georeference/gdal_handles.h"
+#include "content/georeference/stated_crs.h"
 
 namespace pleinair::content {
 
@@ -38,7 +39,7 @@ class GdalArray {
   std::string Unit() const;
   bool is_double() const { return is_double_; }  ///< Doubles, or packed integers.
   bool is_number() const { return is_number_; }
-  OGRSpatialReferenceH spatial_reference() const { return GDALMDArrayGetSpatialRef(array_.get()); }
+  StatedCrs Crs() const;
 
   /// The values from `start`, `count` of each dimension, unpacked; not a number where missing.
   /// Unset: the file is damaged.

@@ -108,7 +108,7 @@ Result<FlowFile> ReadNetCdfFlow(const std::string& path, const std::string& wher
     chart = FieldChart::Geographic(MiddleOf(layout.axes[0]), MiddleOf(layout.axes[1]));
     half_width_deg = std::max(HalfWidthOf(layout.axes[0]), HalfWidthOf(layout.axes[1]));
   } else {
-    const StatedCrs stated = ReadStatedCrs(east.spatial_reference());
+    const StatedCrs stated = east.Crs();
     const std::string crs =
         !options.crs.empty() && options.crs != "marker" ? options.crs : stated.text;
     if (!crs.empty() && options.crs != "marker") chart = FieldChart::Projected(crs);
