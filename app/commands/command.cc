@@ -70,7 +70,8 @@ int Fail(const Error& error) {
 
 /// Standard output may be a file on a full disk: printed text counts only when it is flushed.
 int FlushOutput(int code) {
-  errno = 0;
+  // Long texts fail before the end, and leave their cause.
+  if (std::cout && std::ferror(stdout) == 0) errno = 0;
   std::cout.flush();
   const bool failed = !std::cout || std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
   if (!failed || code != kExitDone) return code;
