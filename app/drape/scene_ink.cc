@@ -66,6 +66,12 @@ Result<std::vector<compositor::InkShape>> SceneInk::Lay(
            "pictures show ink where it lies on a phantom; lines above or below it are not drawn. "
            "pleinair drape writes them");
     }
+    if (drape.ink.hidden == scene::HiddenInk::kGhost) {
+      Warn(file, "hidden = \"ghost\" has no effect on pictures: hidden ink is not drawn");
+    }
+    if (drape.search == scene::DrapeSearch::kScreen) {
+      Warn(file, "live = \"screen\" has no effect: ink is draped exactly");
+    }
     std::vector<compositor::InkShape> ink =
         InkShapesOf(layer, drape.ink, map.colors, first_feature);
     facts_.push_back({file, map.crs, map.features, ink.size(), layer.report,

@@ -98,6 +98,17 @@ TEST(DrapeReplay, PaintHasTheColorOfThePrintsPaper) {
   }
 }
 
+TEST(DrapeReplay, TellsWhatItLeavesOut) {
+  const TemporaryFolder folder;
+  const Replayed drawn =
+      ReplayWithMap(folder, "site", Plan("LineString", kAcross),
+                    "offset_m = 1.5\nhidden = \"ghost\"\nlive = \"screen\"\n", false);
+  const std::string warnings = drawn.report["warnings"].dump();
+  for (const char* part : {"above or below it are not drawn", "ghost", "draped exactly"}) {
+    EXPECT_NE(warnings.find(part), std::string::npos) << part << " in " << warnings;
+  }
+}
+
 TEST(DrapeReplay, RefusesAMapThatItCannotPlace) {
   const TemporaryFolder folder;
   MakeShortRecording(folder / "site", 1, false);
