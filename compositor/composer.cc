@@ -13,13 +13,13 @@
 
 #include "compositor/canvas.h"
 #include "compositor/embedded_shaders.h"
+#include "compositor/ink_drawing.h"
 #include "compositor/lens_drawing.h"
 #include "compositor/light/changing/changing_bodies.h"
 #include "compositor/passes/frame_daylight.h"
 #include "compositor/passes/frame_programs.h"
 #include "compositor/passes/frame_uniforms.h"
 #include "compositor/passes/glm_vectors.h"
-#include "compositor/passes/ink_pass.h"
 #include "compositor/passes/object_pass.h"
 #include "compositor/passes/scene_shadows.h"
 #include "compositor/passes/scene_view.h"
@@ -35,7 +35,7 @@ namespace {
 struct Passes {
   ShadowRatioPass ratio;
   ObjectPass objects;
-  InkPass ink;
+  InkDrawing ink;
   FramePrograms programs;
   std::optional<ShadowDebugView> debug_view;  // Created on first use, for one canvas.
 };
@@ -81,7 +81,10 @@ class GlComposer : public Composer {
   void SetMotion(const CameraMotion& motion, int max_views) override {
     lens_.SetMotion(motion, max_views);
   }
-  Result<void> SetInk(std::span<const InkShape> shapes, const Mat3& marker_from_world) override;
+  Result<void> SetInk(std::span<const InkShape> shapes, const Mat3& marker_from_world) override {
+    PLEINAIR_RETURN_IF_ERROR(context_.MakeCurrent());
+    return passes_.ink.SetShapes(shapes, marker_from_world, &surfaces_, &canvas_);
+  }
   LensFigures DrawnLens() const override { return lens_.figures(); }
   Result<void> SkipImage(const Transform<Camera, Marker>& camera_from_marker) override;
   Result<void> SetCameraLook(const std::optional<CameraLook>& look) override {
@@ -112,7 +115,6 @@ class GlComposer : public Composer {
                         LinearRgb exposure_scale) const;
   AffectedTiles DrawCoarse(const SurfacePrograms& programs, const shadows::View& view,
                            const FrameUniforms& frame, int lens_spread_px);
-  Result<void> DrawInk(const shadows::View& view, const FrameUniforms& frame);
   Result<void> DrawDebugView(const shadows::View& view);
 
   gl::EglContext context_;  // First, so that it outlives the GL objects.
@@ -238,34 +240,8 @@ Result<void> GlComposer::SetSunTransmittance(const SunShade& shade) {
   return light_.SetShade(shade);
 }
 
-Result<void> GlComposer::SetInk(std::span<const InkShape> shapes, const Mat3& marker_from_world) {
-  PLEINAIR_RETURN_IF_ERROR(context_.MakeCurrent());
-  PLEINAIR_RETURN_IF_ERROR(passes_.ink.SetShapes(shapes, marker_from_world));
-  surfaces_.NumberAll(!passes_.ink.empty());
-  if (passes_.ink.empty()) canvas_.ink = {};
-  return {};
-}
-
-/// Draws the ink that the pinhole camera sees. Requires classified surfaces.
-Result<void> GlComposer::DrawInk(const shadows::View& view, const FrameUniforms& frame) {
-  if (passes_.ink.empty()) return {};
-  if (!canvas_.ink.kept) {
-    PLEINAIR_ASSIGN_OR_RETURN(canvas_.ink,
-                              InkImages::Create(canvas_.camera.width, canvas_.camera.height));
-  }
-  canvas_.ink.tiles =
-      passes_.ink.TilesOf(ProjectionOf(canvas_.camera, view, 0), surfaces_.placement().bounds());
-  canvas_.picture.BindForShading(2, 3, 4);
-  light_.BindShade();
-  return passes_.ink.Draw(canvas_.targets, surfaces_, passes_.ratio, frame, unmodelled_,
-                          {.blur_px = static_cast<float>(canvas_.picture.Blur_px()),
-                           .render_px = static_cast<float>(canvas_.picture.supersampling()),
-                           .maps = shadows_.options(),
-                           .fades = shadows_.Fades()},
-                          canvas_.ink);
-}
-
 Result<void> GlComposer::DrawDebugView(const shadows::View& view) {
+  if (!options_.show_shadow_maps || !light_.HasSun()) return {};
   const shadows::ShadowMaps& maps = shadows_.maps();
   if (!passes_.debug_view) {
     PLEINAIR_ASSIGN_OR_RETURN(
@@ -319,10 +295,7 @@ FrameUniforms GlComposer::FrameOf(const shadows::View& view,
   frame.ray = RaysThroughPixels(canvas_.camera, view);
   frame.exposure_scale = ToGlm(exposure_scale);
   light_.SetUniforms(&frame);
-  frame.fog =
-      FogBefore(surfaces_.placement().object_bounds(), light_.air(), view, frame.eye_m, options_);
-  for (glm::vec3& light : frame.fog.inscattered) light *= frame.environment.below_mix;
-  frame.needs_airlight = frame.IsNoticed(frame.fog.inscattered.back());
+  light_.SetFog(surfaces_.placement().object_bounds(), view, options_, &frame);
   frame.linear_needs_airlight =
       frame.needs_airlight &&
       frame.IsNoticed(frame.fog.MaxLightPerMetre() * surfaces_.MaxLinearChangeFarFrom(frame.eye_m));
@@ -385,7 +358,8 @@ Result<RgbImage> GlComposer::Compose(CameraImageView image,
   PLEINAIR_ASSIGN_OR_RETURN(const shadows::View view, UpdateScene(camera_from_marker));
   const FrameUniforms frame = FrameOf(view, camera_from_marker, exposure_scale);
   PLEINAIR_ASSIGN_OR_RETURN(const SurfacePrograms* programs, ProgramsFor(frame));
-  PLEINAIR_RETURN_IF_ERROR(DrawInk(view, frame));
+  PLEINAIR_RETURN_IF_ERROR(passes_.ink.Draw(
+      {surfaces_, passes_.ratio, light_, shadows_, unmodelled_}, view, frame, &canvas_));
   const auto draw_pinhole = [&](int lens_spread_px) {
     AffectedTiles drawn = DrawCoarse(*programs, view, frame, lens_spread_px);
     canvas_.places.Draw(canvas_.targets, frame, drawn.fine.Rectangles(),
@@ -413,9 +387,7 @@ Result<RgbImage> GlComposer::Compose(CameraImageView image,
   PLEINAIR_ASSIGN_OR_RETURN(const RealOccluders* occluders, lens_.Draw(seen, frame, view, &tiles));
   PLEINAIR_RETURN_IF_ERROR(canvas_.picture.Draw(canvas_.targets, canvas_.coarse.ratio(), tiles,
                                                 occluders, canvas_.DrawnInk()));
-  if (options_.show_shadow_maps && light_.HasSun()) {
-    PLEINAIR_RETURN_IF_ERROR(DrawDebugView(view));
-  }
+  PLEINAIR_RETURN_IF_ERROR(DrawDebugView(view));
   return canvas_.picture.Read(image.rgb());
 }
 

@@ -6,6 +6,7 @@
 
 #include "compositor/light/environment_map.h"
 #include "compositor/passes/glm_vectors.h"
+#include "compositor/passes/scene_view.h"
 
 namespace pleinair::compositor {
 Result<FrameDaylight> FrameDaylight::Create() {
@@ -86,6 +87,13 @@ void FrameDaylight::SetUniforms(FrameUniforms* frame) const {
       (level_sun_ * mix_.sun + level_sky_ * mix_.sky + none) / (level_sun_ + level_sky_ + none);
   frame->environment = {ToGlm(mix_.sky), ToGlm(level), up_};
   frame->shade_from_marker = {trees_.TextureFromMarker(), clouds_.TextureFromMarker()};
+}
+
+void FrameDaylight::SetFog(const shadows::Box& objects, const shadows::View& view,
+                           const ComposerOptions& options, FrameUniforms* frame) const {
+  frame->fog = FogBefore(objects, air_, view, frame->eye_m, options);
+  for (glm::vec3& light : frame->fog.inscattered) light *= frame->environment.below_mix;
+  frame->needs_airlight = frame->IsNoticed(frame->fog.inscattered.back());
 }
 
 }  // namespace pleinair::compositor

@@ -6,11 +6,13 @@
 
 #include "base/error.h"
 #include "base/vector.h"
+#include "compositor/composer_options.h"
 #include "compositor/light/light_mix.h"
 #include "compositor/light/sun_transmittance_map.h"
 #include "compositor/passes/aerial_fog.h"
 #include "compositor/passes/frame_uniforms.h"
 #include "gl/texture.h"
+#include "shadows/light_window.h"
 #include "sky/sky_model.h"
 
 namespace pleinair::compositor {
@@ -44,13 +46,15 @@ class FrameDaylight {
   LinearRgb SunNow() const { return sun_normal_lux_ * mix_.sun; }
   /// True if trees or clouds take a part of the sun that differs from place to place.
   bool IsShaded() const { return trees_.Shades() || clouds_.Shades(); }
-  const AerialFog& air() const { return air_; }
   const gl::GlTexture& environment() const { return environment_; }
   /// For shaders/sun_transmittance_map.glsl.
   void BindShade() const;
 
   /// Sets sun, environment and the places of the maps of transmittance.
   void SetUniforms(FrameUniforms* frame) const;
+  /// After SetUniforms(): sets the fog before the `objects`, and whether it is noticeable.
+  void SetFog(const shadows::Box& objects, const shadows::View& view,
+              const ComposerOptions& options, FrameUniforms* frame) const;
 
  private:
   /// A map of transmittance; one texel with all of the sun where nothing takes any.

@@ -42,7 +42,7 @@ layout(location = 2) out vec4 out_unlit;
 
 const int kTexelsPerRow = 4096, kShapesPerRow = 1365;
 const uint kMeanBit = 1u << 31;
-const int kStain = 0, kPaint = 1, kGlow = 2;
+const int kStain = 0, kPaint = 1, kGlow = 2;  // InkBlend of compositor/ink/ink_shape.h.
 
 struct Ink {
   vec3 kept, lit, unlit;

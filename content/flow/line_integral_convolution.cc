@@ -132,6 +132,23 @@ struct Canvas {
   std::unique_ptr<FieldProbe> probe;
 };
 
+/// The sums of all pixels, each begun with its noise. `add`: continues that of a pixel, with a
+/// probe of its thread.
+template <typename Add>
+PathSums SumsOf(const Canvas& canvas, int threads, const Add& add) {
+  const Texture& texture = canvas.texture;
+  PathSums sums = canvas.noise;
+  ForRows(texture, threads, [&](int first, int last) {
+    const std::unique_ptr<FieldProbe> own = canvas.probe->Copy();
+    for (int y = first; y < last; ++y) {
+      for (int x = 0; x < texture.width; ++x) {
+        add(Vec2{1.0 * x, 1.0 * y}, own.get(), &sums[texture.Number(x, y)]);
+      }
+    }
+  });
+  return sums;
+}
+
 Result<Canvas> MakeCanvas(const VectorField& field, Seconds frozen_s,
                           const ConvolutionOptions& options) {
   const Box box = field.bounds();
@@ -186,20 +203,14 @@ Image<float> MeanOf(const Canvas& canvas, Seconds frozen_s, const PathSums& up,
 PathSums SumByLevels(const Canvas& canvas, Seconds frozen_s, const ConvolutionOptions& options,
                      double sign) {
   const Texture& texture = canvas.texture;
-  PathSums sums = canvas.noise;
-  ForRows(texture, options.threads, [&](int first, int last) {
-    const std::unique_ptr<FieldProbe> own = canvas.probe->Copy();
-    for (int y = first; y < last; ++y) {
-      for (int x = 0; x < texture.width; ++x) {
-        Vec2 at{1.0 * x, 1.0 * y};
-        PathSum& sum = sums[texture.Number(x, y)];
-        const bool goes_on = StepInPixels(texture, own.get(), frozen_s, sign, &at);
+  PathSums sums =
+      SumsOf(canvas, options.threads, [&](const Vec2& from, FieldProbe* probe, PathSum* sum) {
+        Vec2 at = from;
+        const bool goes_on = StepInPixels(texture, probe, frozen_s, sign, &at);
         constexpr float kEnded = std::numeric_limits<float>::quiet_NaN();
-        sum.dx = goes_on ? static_cast<float>(at.x - x) : kEnded;
-        sum.dy = goes_on ? static_cast<float>(at.y - y) : kEnded;
-      }
-    }
-  });
+        sum->dx = goes_on ? static_cast<float>(at.x - from.x) : kEnded;
+        sum->dy = goes_on ? static_cast<float>(at.y - from.y) : kEnded;
+      });
   PathSums twice(sums.size());
   for (int level = 0; level < options.levels; ++level) {
     ForRows(texture, options.threads, [&](int first, int last) {
@@ -225,23 +236,13 @@ PathSums SumByLevels(const Canvas& canvas, Seconds frozen_s, const ConvolutionOp
 
 PathSums SumSerially(const Canvas& canvas, Seconds frozen_s, const ConvolutionOptions& options,
                      double sign) {
-  const Texture& texture = canvas.texture;
-  PathSums sums = canvas.noise;
-  ForRows(texture, options.threads, [&](int first, int last) {
-    const std::unique_ptr<FieldProbe> own = canvas.probe->Copy();
-    for (int y = first; y < last; ++y) {
-      for (int x = 0; x < texture.width; ++x) {
-        Vec2 at{1.0 * x, 1.0 * y};
-        PathSum& sum = sums[texture.Number(x, y)];
-        for (int n = 1; n < 1 << options.levels; ++n) {
-          if (!StepInPixels(texture, own.get(), frozen_s, sign, &at)) break;
-          sum.sum += Interpolated(texture, canvas.noise, at.x, at.y).sum;
-          sum.count += 1.0F;
-        }
-      }
+  return SumsOf(canvas, options.threads, [&](Vec2 at, FieldProbe* probe, PathSum* sum) {
+    for (int n = 1; n < 1 << options.levels; ++n) {
+      if (!StepInPixels(canvas.texture, probe, frozen_s, sign, &at)) break;
+      sum->sum += Interpolated(canvas.texture, canvas.noise, at.x, at.y).sum;
+      sum->count += 1.0F;
     }
   });
-  return sums;
 }
 
 }  // namespace

@@ -4,11 +4,14 @@
 #include <fmt/format.h>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <vector>
 
+#include "app/compare/ciede2000.h"
 #include "tests/e2e/command_output.h"
 #include "tests/e2e/refusal.h"
 #include "tests/e2e/run_program.h"
@@ -60,6 +63,15 @@ cv::Point Pixel(double x_m, double y_m) {
               std::lround(lens["fy"].get<double>() * at[1] / at[2] + lens["cy"].get<double>()))};
 }
 
+/// `bgr`: a pixel or a mean of pixels.
+app::Lab LabOf(const cv::Vec3d& bgr) {
+  std::array<std::uint8_t, 3> rgb{};
+  for (int c = 0; c < 3; ++c) {
+    rgb[static_cast<std::size_t>(c)] = static_cast<std::uint8_t>(std::lround(bgr[2 - c]));
+  }
+  return app::LabFromSrgb8(rgb);
+}
+
 TEST(DrapeReplay, DrawsAMapWithoutAVirtualObject) {
   const TemporaryFolder folder;
   const Replayed drawn = ReplayWithMap(folder, "site", Plan("LineString", kAcross),
@@ -93,8 +105,7 @@ TEST(DrapeReplay, PaintHasTheColorOfThePrintsPaper) {
       paper += drawn.picture.at<cv::Vec3b>(Pixel(0.275, y + 0.01 * i));
       paint += drawn.picture.at<cv::Vec3b>(Pixel(0.38, y + 0.01 * i));
     }
-    // Three codes near white are a CIEDE2000 of about 1.
-    for (int c = 0; c < 3; ++c) EXPECT_NEAR(paint[c] / 5, paper[c] / 5, 9.0) << y << " " << c;
+    EXPECT_LE(app::Ciede2000(LabOf(paint / 5), LabOf(paper / 5)), 3.0) << y;
   }
 }
 

@@ -1,11 +1,15 @@
 // Measures draping, as docs/measurements/draping.md has it:
 //   drape_benchmark                        one million vertices of lines on 500,000 triangles
+//   drape_benchmark write FOLDER           the same as a scene for `pleinair drape`
 //   drape_benchmark screen                 the grids of Trapp and Döllner 2019, on the screen
 //   drape_benchmark screen --depth-test printed    the same with the depth test as it is printed
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iomanip>
 #include <limits>
 #include <optional>
 #include <random>
@@ -16,6 +20,7 @@
 #include "content/draping/drape_lines.h"
 #include "content/draping/screen_search.h"
 #include "content/draping/surface_view.h"
+#include "content/georeference/local_frame.h"
 #include "tests/content/draping/made_surfaces.h"
 
 namespace pleinair::content {
@@ -75,6 +80,44 @@ void MeasureScale() {
     });
     std::printf("%d threads: %zu vertices out, %.0f ms\n", threads, vertices_out, ms);
   }
+}
+
+/// Hills and trails of MeasureScale(): x is east and y north of a level marker.
+void WriteScene(const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
+  tests::MeshMaker maker;
+  maker.Field(500, 500.0, Hills);
+  const SurfaceMesh mesh = maker.Take();
+  std::ofstream hills(folder / "hills.obj");
+  for (const Point<World>& at : mesh.vertices) {
+    hills << "v " << at.xyz.x << ' ' << at.xyz.y << ' ' << at.xyz.z << '\n';
+  }
+  for (const auto& [a, b, c] : mesh.triangles) {
+    hills << "f " << a + 1 << ' ' << b + 1 << ' ' << c + 1 << '\n';
+  }
+  constexpr double kLatitude_deg = 50.0, kLongitude_deg = 14.0;
+  const LocalFrame frame({kLongitude_deg, kLatitude_deg, 0.0});
+  std::ofstream map(folder / "trails.geojson");
+  map << std::setprecision(12) << R"({"type":"FeatureCollection","features":[)";
+  const char* before_line = "\n";
+  for (const LineToDrape& trail : Trails(1000, 490.0)) {
+    map << before_line << R"({"type":"Feature","properties":{},)"
+        << R"("geometry":{"type":"LineString","coordinates":[)";
+    const char* before_point = "";
+    for (const Point<World>& at : trail.points) {
+      const GeodeticPoint on_earth = frame.Geodetic(at);
+      map << before_point << '[' << on_earth.longitude_deg << ',' << on_earth.latitude_deg << ']';
+      before_point = ",";
+    }
+    map << "]}}";
+    before_line = ",\n";
+  }
+  map << "]}\n";
+  std::ofstream(folder / "scene.toml")
+      << "time = 2025-09-14T11:05:00Z\n[place]\nlatitude_deg = " << kLatitude_deg
+      << "\nlongitude_deg = " << kLongitude_deg
+      << "\n[marker]\nsize_mm = 480\nheading_deg = 0\n[[phantom]]\nfile = \"hills.obj\"\n"
+         "[[drape]]\nfile = \"trails.geojson\"\n";
 }
 
 /// A field of 257 by 257 vertices, 160 m wide, and a camera that looks north over it.
@@ -180,6 +223,8 @@ void MeasureScreen(bool as_printed) {
 int main(int argc, char** argv) {
   if (argc < 2) {
     pleinair::content::MeasureScale();
+  } else if (argc == 3 && std::string_view(argv[1]) == "write") {
+    pleinair::content::WriteScene(argv[2]);
   } else {
     pleinair::content::MeasureScreen(std::string_view(argv[argc - 1]) == "printed");
   }
